@@ -1,4 +1,4 @@
-//! What one part of a spaceship costs a particle: copy the sketches, make the shapes, add them, read the score.
+//! The cost of a part of a spaceship for a particle: copy the sketches, make the shapes, add them, read the score.
 //!
 //! `cargo run --release -p niwaki-geom --example add_part`
 //!

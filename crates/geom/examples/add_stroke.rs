@@ -1,4 +1,4 @@
-//! What one stroke of a drawing costs a particle: copy the sketch, make the shape, add it, read the score.
+//! The cost of a stroke of a drawing for a particle: copy the sketch, make the shape, add it, read the score.
 //!
 //! `cargo run --release -p niwaki-geom --example add_stroke`
 //!

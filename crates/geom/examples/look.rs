@@ -1,4 +1,4 @@
-//! What a window costs: a look around a place, and keeping what windows need while shapes are added.
+//! The cost of a window: a view from a place, and the update of its data while shapes are added.
 //!
 //! `cargo run --release -p niwaki-geom --example look`
 //!

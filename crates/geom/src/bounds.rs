@@ -2,7 +2,7 @@
 
 use crate::vector::{Vec3, vec3};
 
-/// The distance from the origin at which a box is far, in its longest sides: 32 bits keep 170,000 steps of it there.
+/// The distance from the origin from which a box is far, in its longest sides: 32 bits have 170,000 steps of it there.
 pub const FAR: f64 = 100.0;
 
 /// A closed box along the axes. The empty box has `low` above `high`.
@@ -15,7 +15,7 @@ pub struct Aabb {
 }
 
 impl Aabb {
-    /// The box that holds nothing.
+    /// The empty box.
     pub const EMPTY: Aabb = Aabb {
         low: vec3(f64::INFINITY, f64::INFINITY, f64::INFINITY),
         high: vec3(f64::NEG_INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY),
@@ -27,7 +27,7 @@ impl Aabb {
         points.into_iter().fold(Aabb::EMPTY, |b, p| Aabb { low: b.low.min(p), high: b.high.max(p) })
     }
 
-    /// The smallest box around both.
+    /// The smallest box around two boxes.
     #[inline]
     pub fn union(&self, other: &Aabb) -> Aabb {
         Aabb { low: self.low.min(other.low), high: self.high.max(other.high) }
@@ -66,7 +66,7 @@ impl Aabb {
         (self.low + self.high) * 0.5
     }
 
-    /// Whether it is [`FAR`] from the origin.
+    /// True for a box that is [`FAR`] from the origin.
     pub fn is_far(&self) -> bool {
         let most = |v: Vec3| v.x.max(v.y).max(v.z);
         let longest = most(self.extent());

@@ -1,4 +1,4 @@
-//! Convex solids as intersection and voxels use them.
+//! Convex solids for intersections and voxels.
 
 use crate::placement::Placement;
 use crate::polytope::{Hull, narrowest};
@@ -11,16 +11,16 @@ use std::sync::Arc;
 
 /// A convex solid in the world, as scores use it.
 ///
-/// A box's corners are computed from its placement when they are needed, which costs less than to keep them: most
-/// emitted shapes are boxes, and a population holds millions. Every other solid lends its kept hull.
+/// The corners of a box are computed from its placement at each use, because most emitted shapes are boxes, and a population
+/// has millions. Every other solid lends its stored hull.
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant, reason = "corners are on the stack only while they are used")]
 pub enum Convex<'a> {
     /// Corners, and unit normals of the faces, along which the edges run too.
     Cuboid([Vec3; 8], [Vec3; 3]),
-    /// Another convex solid, and what is known about it.
+    /// Another convex solid, with its stored hull.
     Coarse(Rc<Coarse>),
-    /// A piece of one.
+    /// A piece of a solid.
     Hull(&'a Hull),
 }
 
@@ -28,19 +28,19 @@ pub enum Convex<'a> {
 #[derive(Debug)]
 pub struct Coarse {
     whole: Hull,
-    /// Of a segment, whether its base is on a parent's bark.
+    /// For a segment: true if its base is on a parent's bark.
     welded: Option<bool>,
-    /// Of a segment, computed when first needed.
+    /// The pieces of a segment, computed at the first use.
     pieces: OnceCell<Box<[Hull]>>,
 }
 
 impl Coarse {
-    /// Of a convex solid.
+    /// The hull of a convex solid.
     pub(crate) fn new(whole: Hull) -> Coarse {
         Coarse { whole, welded: None, pieces: OnceCell::new() }
     }
 
-    /// Of a segment; `welded` where its base is on a parent's bark.
+    /// The hull of a segment; `welded` for a base on a parent's bark.
     pub(crate) fn of_segment(whole: Hull, welded: bool) -> Coarse {
         Coarse { welded: Some(welded), ..Coarse::new(whole) }
     }
@@ -55,11 +55,11 @@ impl Coarse {
         self.whole.corners()
     }
 
-    /// Bytes that it takes, or a little more, with all that it may compute.
+    /// An upper bound of its bytes, with its pieces.
     pub(crate) fn bytes(&self) -> usize {
         let whole = self.whole.bytes() + size_of::<Coarse>();
         let topology = self.whole.topology();
-        // The pieces of a segment have more corners than it.
+        // The pieces of a segment have more corners than its hull.
         whole * if self.welded.is_some() { 3 } else { 1 }
             + if Arc::strong_count(topology) == 1 { topology.bytes() } else { 0 }
     }
@@ -92,7 +92,7 @@ impl Convex<'_> {
         }
     }
 
-    /// Corners and the centres of caps: what the indices of the topology mean.
+    /// Corners and the centres of caps, by the indices of the topology.
     #[inline]
     pub fn vertices(&self) -> &[Vec3] {
         match self {
@@ -132,7 +132,7 @@ impl Convex<'_> {
         }
     }
 
-    /// The convex solids whose union the shape is, where this solid is larger than the shape.
+    /// The convex solids whose union is the shape, if this solid is larger than the shape.
     pub fn pieces(&self) -> Option<&[Hull]> {
         let Convex::Coarse(coarse) = self else { return None };
         let welded = coarse.welded?;

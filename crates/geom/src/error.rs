@@ -5,10 +5,10 @@ use std::fmt;
 /// A shape, mesh or target that is not valid.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GeomError {
-    /// Which rule was broken, in kebab case: `bad-shape`, `bad-setting`, `bad-camera`, `bad-image`, `image-one-color`,
+    /// The code of the error, in kebab case: `bad-shape`, `bad-setting`, `bad-camera`, `bad-image`, `image-one-color`,
     /// `no-cell-filled`, `too-many-cells`, `light-grazes`, `receiver-unseen`.
     pub code: &'static str,
-    /// The actual and the expected value.
+    /// A sentence with the actual and the expected value.
     pub message: String,
 }
 

@@ -1,7 +1,7 @@
 //! Convex hull of a few dozen points, for limbs and cones, by adding one point at a time.
 //!
-//! Each new point sees some faces; they are replaced by a fan from the point to the rim of what it sees. Triangles in
-//! one plane are merged at the end, so that a ring comes back as one face. Points within `1e-10` of the size from the
+//! Each new point sees some faces. A fan from the point to the rim of these faces replaces them. Triangles in one plane are
+//! merged at the end, so that a ring becomes one face again. Points within `1e-10` of the size from the
 //! hull so far are taken to lie on it: limbs have rounding errors of `1e-16`, and no model has details of `1e-10`.
 
 use crate::bounds::Aabb;
@@ -62,8 +62,8 @@ fn first_tetrahedron(points: &[Vec3], close: f64) -> Option<[[u32; 3]; 4]> {
     Some([[a, b, c], [a, d, b], [b, d, c], [c, d, a]])
 }
 
-/// Joins triangles of one plane into one face: what is left of their sides after opposite ones cancel. `None` where too few
-/// are left, because points lie as close as rounding.
+/// Joins triangles of one plane into one face: its sides are those that no opposite side cancels. `None` if too few remain,
+/// because points lie as close as rounding.
 fn merged(triangles: &[Triangle], points: &[Vec3], close: f64) -> Option<Vec<Vec<u32>>> {
     let mut faces = Vec::new();
     let mut done = vec![false; triangles.len()];

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! This is the merge step of the divide-and-conquer hull (Preparata & Hong 1977) for polygons: linear in the number
-//! of sides. When a ring cuts the other's plane, the general hull is needed.
+//! of sides. If a ring cuts the plane of the other, the general hull replaces it.
 
 use crate::topology::Topology;
 use crate::vector::Vec3;

@@ -1,4 +1,4 @@
-//! The look of a shape: what is given beside its measures, and what pictures show of it.
+//! The look of a shape: its arguments beside the measures, and their part for pictures.
 
 use crate::error::{GeomError, bad_shape as bad};
 use crate::vector::Mat3;
@@ -18,11 +18,11 @@ pub struct Look {
     pub roughness: Option<f32>,
 }
 
-/// What pictures show beside the form.
+/// The paint of a shape in pictures.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Paint {
     pub bevel: Option<f64>,
-    /// NaN for none.
+    /// Linear colour; NaN for none.
     pub color: [f32; 3],
     /// Metalness and roughness; NaN for none.
     pub finish: [f32; 2],
@@ -31,7 +31,7 @@ pub(crate) struct Paint {
 impl Paint {
     pub const NONE: Paint = Paint { bevel: None, color: [f32::NAN; 3], finish: [f32::NAN; 2] };
 
-    /// Of a look; none where it gives nothing.
+    /// The paint of a look, or `None` for an empty look.
     ///
     /// # Errors
     /// `bad-shape` for a look that is out of range.
@@ -44,8 +44,8 @@ impl Paint {
         if let Some(c) = color.filter(|c| !c.iter().all(|c| (0.0..=1.0).contains(c))) {
             return bad(format!("the color is {c:?}, expected three numbers from 0 to 1"));
         }
-        for (name, given) in [("metalness", metalness), ("roughness", roughness)] {
-            if let Some(share) = given.filter(|share| !(0.0..=1.0).contains(share)) {
+        for (name, value) in [("metalness", metalness), ("roughness", roughness)] {
+            if let Some(share) = value.filter(|share| !(0.0..=1.0).contains(share)) {
                 return bad(format!("the {name} is {share}, expected a number from 0 to 1"));
             }
         }

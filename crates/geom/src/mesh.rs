@@ -15,7 +15,7 @@ use std::sync::{Arc, OnceLock};
 pub struct TriMesh {
     vertices: Vec<Vec3>,
     triangles: Vec<[u32; 3]>,
-    /// Once a fill has asked.
+    /// Flat parts that lie over themselves, computed at the first fill.
     #[serde(skip)]
     folds: OnceLock<Arc<[Fold]>>,
 }
@@ -97,13 +97,13 @@ impl TriMesh {
         TriMesh { vertices, triangles: self.triangles.clone(), folds: OnceLock::new() }
     }
 
-    /// The mesh scaled, turned and moved by `f`. What is flat stays so, and is not looked for again.
+    /// The mesh scaled, turned and moved by `f`. Its flat parts stay flat, and are not computed again.
     pub fn placed(&self, f: impl Fn(Vec3) -> Vec3) -> TriMesh {
         self.folds();
         TriMesh { folds: self.folds.clone(), ..self.map(f) }
     }
 
-    /// Its flat parts that lie over themselves.
+    /// The flat parts that lie over themselves.
     pub(crate) fn folds(&self) -> &[Fold] {
         self.folds.once(|| folds(self).into())
     }
@@ -111,7 +111,7 @@ impl TriMesh {
     /// For each vertex the number of the first one at its place.
     pub(crate) fn merged(&self) -> Vec<u32> {
         let mut first: HashMap<[u64; 3], u32> = HashMap::new();
-        // Adding zero turns -0.0 into 0.0, so that the two are one vertex.
+        // Adding zero turns -0.0 into 0.0, so that both are the same vertex.
         let key = |v: &Vec3| v.to_array().map(|c| (c + 0.0).to_bits());
         (0..).zip(&self.vertices).map(|(i, v)| *first.entry(key(v)).or_insert(i)).collect()
     }

@@ -1,13 +1,13 @@
-//! Values that are computed when they are first needed.
+//! Values that are computed at the first use.
 
 use std::sync::OnceLock;
 
-/// Cells whose value is computed when it is first needed.
+/// Cells whose value is computed at the first use.
 pub trait Once<T> {
-    /// The value, computed by whoever needs it first; of several at once, the first to end decides.
+    /// The value, computed at the first use. Of several threads at once, the first to end decides.
     ///
     /// The cell is locked only while the value is put into it. `OnceLock::get_or_init` alone keeps it locked while it
-    /// computes: a process forked at that time would wait for ever at the first use, as who computes is not there.
+    /// computes: a process forked at that time would wait for ever at the first use, because it has no thread that computes.
     fn once(&self, compute: impl FnOnce() -> T) -> &T;
 }
 

@@ -1,15 +1,15 @@
-//! Where a solid is: solids are made around the origin and *placed*, first turned, then moved.
+//! The placement of a solid: solids are made around the origin, then turned, then moved.
 
 use crate::error::{GeomError, bad_shape as bad};
 use crate::vector::{Mat3, Vec3};
 use serde::{Deserialize, Serialize};
 
-/// First turn, then move.
+/// A turn, followed by a move.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Placement {
     /// A rotation.
     pub rotation: Mat3,
-    /// Scene units.
+    /// The move, scene units.
     pub translation: Vec3,
 }
 
@@ -17,7 +17,7 @@ impl Placement {
     /// No movement.
     pub const IDENTITY: Placement = Placement { rotation: Mat3::IDENTITY, translation: Vec3::ZERO };
 
-    /// Refuses a place that is not finite, and what is no rotation.
+    /// Refuses numbers that are not finite, and a matrix that is no rotation.
     #[inline]
     pub(crate) fn check(&self) -> Result<(), GeomError> {
         if !self.translation.is_finite() {
@@ -36,7 +36,7 @@ impl Placement {
         self.rotation.apply(p) + self.translation
     }
 
-    /// What is placed by `inner` first, and by this one then.
+    /// The placement by `inner`, followed by this placement.
     pub fn after(&self, inner: &Placement) -> Placement {
         Placement {
             rotation: self.rotation.after(&inner.rotation),

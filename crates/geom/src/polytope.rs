@@ -1,4 +1,4 @@
-//! A convex solid by its corners and faces, with the directions along which it can be separated from another.
+//! Convex solids by their corners and faces, with the directions along which they can be separated.
 
 use crate::hull::hull;
 use crate::topology::Topology;
@@ -18,9 +18,9 @@ pub struct Hull {
 }
 
 impl Hull {
-    /// From world vertices (hull corners first, then the points that only triangles use).
+    /// A solid of world vertices (hull corners first, then the points that only triangles use).
     ///
-    /// `None` when a face has no normal, which a flat solid has.
+    /// `None` when a face has no normal, as in a flat solid.
     pub(crate) fn new(vertices: Vec<Vec3>, topology: Arc<Topology>) -> Option<Hull> {
         Hull::over(vertices, topology, false)
     }
@@ -31,7 +31,7 @@ impl Hull {
         Hull::new(points, Arc::new(topology))
     }
 
-    /// As [`Hull::new`], for a solid that is nearly convex; a face without a normal is left out.
+    /// A nearly convex solid, as [`Hull::new`] makes it, but without the faces that have no normal.
     pub(crate) fn nearly(vertices: Vec<Vec3>, topology: Arc<Topology>) -> Option<Hull> {
         Hull::over(vertices, topology, true)
     }
@@ -66,7 +66,7 @@ impl Hull {
         (width > 0.0).then_some(Hull { points, vertices: vertices.len(), topology, edges, width })
     }
 
-    /// Bytes that it takes beside itself, or a little more, with all that it may compute.
+    /// An upper bound of its bytes on the heap, with its edges.
     pub(crate) fn bytes(&self) -> usize {
         (self.points.len() + self.topology.edges.len()) * size_of::<Vec3>()
     }
@@ -77,13 +77,13 @@ impl Hull {
         self.width
     }
 
-    /// Its corners, without the centres of caps.
+    /// The corners, without the centres of caps.
     #[inline]
     pub(crate) fn corners(&self) -> &[Vec3] {
         &self.points[..self.topology.corners]
     }
 
-    /// Corners and the centres of caps: what the indices of the topology mean.
+    /// Corners and the centres of caps, by the indices of the topology.
     #[inline]
     pub(crate) fn vertices(&self) -> &[Vec3] {
         &self.points[..self.vertices]
@@ -101,7 +101,7 @@ impl Hull {
         &self.topology
     }
 
-    /// Unit edge directions, each once, up to sign; computed when first needed.
+    /// Unit edge directions, each once, up to sign; computed at the first use.
     pub(crate) fn edges(&self) -> &[Vec3] {
         self.edges.get_or_init(|| {
             let mut edges = Vec::new();
@@ -123,7 +123,7 @@ pub(crate) fn narrowest(corners: &[Vec3], normals: &[Vec3]) -> f64 {
 /// Extent of `points` along `axis`.
 #[inline]
 pub(crate) fn span(points: &[Vec3], axis: Vec3) -> (f64, f64) {
-    // Two at a time, so that one need not wait for the other.
+    // Two points at a time, so that neither waits for the other.
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     let mut look = |k: usize, p: &Vec3| {
         let along = p.dot(axis);
@@ -139,14 +139,14 @@ pub(crate) fn span(points: &[Vec3], axis: Vec3) -> (f64, f64) {
     (low[0].min(low[1]), high[0].max(high[1]))
 }
 
-/// Newell's normal: exact for planar faces, the mean one otherwise.
+/// Newell's normal: exact for planar faces, a mean otherwise.
 fn face_normal(face: &[u32], vertices: &[Vec3]) -> Option<Vec3> {
     let at = |i: usize| vertices[face[i % face.len()] as usize];
     let origin = at(0);
     (1..face.len() - 1).fold(Vec3::ZERO, |sum, i| sum + (at(i) - origin).cross(at(i + 1) - origin)).unit()
 }
 
-/// Adds a direction, unless it is among them.
+/// Adds a direction, unless `directions` has it.
 fn push_direction(directions: &mut Vec<Vec3>, new: Vec3) {
     // Parallel to within 1e-10 radians, in either direction.
     if !directions.iter().any(|d| d.dot(new).abs() > 0.999_999 && d.cross(new).dot(d.cross(new)) < 1e-20) {

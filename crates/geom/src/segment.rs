@@ -1,4 +1,4 @@
-//! A segment of a tree: three rings, the middle one after the bend, and optionally a base on a parent's bark.
+//! Segments of a tree: three rings, the second after the bend, and optionally a base on a parent's bark.
 //!
 //! ```text
 //!        ___ end            From the split ring to the end the segment is an exact cone, on which branches start.
@@ -8,11 +8,10 @@
 //!     |__| start
 //! ```
 //!
-//! The coarse mesh is the tube over the three rings (dissertation 2.3.3 and 5.5, the tree). Voxels take it as
-//! convex, which it nearly is: the hull bulges by a few hundredths of the radius, and where a base is welded on, over
-//! the hollow that the parent fills. Intersections cannot: a branch starts on the cone without any gap. So a segment
-//! also has *pieces*, each convex, that do not overlap what they touch: the wedge, the cone, and instead of the wedge
-//! over a welded base one wedge for each strip of the base.
+//! The coarse mesh is the tube over the three rings (dissertation 2.3.3 and 5.5, the tree). It is nearly convex, and voxels
+//! use its hull, which bulges by a few hundredths of the radius, and over the hollow of a welded base that the parent fills.
+//! Intersections need the exact shape, because a branch starts on the cone without any gap. So a segment also has convex
+//! *pieces* that do not overlap what they touch: the wedge and the cone. A welded base has a wedge for each of its strips.
 
 use crate::once::Once;
 use crate::polytope::Hull;
@@ -25,7 +24,7 @@ use std::sync::{Arc, OnceLock};
 /// Sides of a segment's rings (dissertation chapter 5's coarse mesh). Its remainder by four is two: see `strips`.
 pub const SEGMENT_SIDES: usize = 10;
 
-/// Corners of the three rings, start first; the start lies on the bark when there is one.
+/// Corners of the three rings, start first. The start lies on the bark, if the segment has one.
 pub(crate) fn corners(tube: &Tube) -> Option<Vec<Vec3>> {
     let (frames, onto) = (tube.frames(), tube.onto());
     let around = || ring(SEGMENT_SIDES);
@@ -65,7 +64,7 @@ pub(crate) fn tube() -> Arc<Topology> {
     TUBE.once(build).clone()
 }
 
-/// A ring cut into quadrangles by lines parallel to the one from the mark to the vertex opposite.
+/// A ring cut into quadrangles by lines parallel to the diagonal from the mark.
 fn strips() -> impl Iterator<Item = [u32; 4]> {
     const { assert!(SEGMENT_SIDES % 4 == 2) };
     let (n, half) = (SEGMENT_SIDES as u32, SEGMENT_SIDES as u32 / 2);
@@ -74,14 +73,14 @@ fn strips() -> impl Iterator<Item = [u32; 4]> {
     })
 }
 
-/// The convex pieces: the cone, and below the bend a wedge, or one over each strip of a welded base.
+/// The convex pieces: the cone, and below the bend a wedge, or a wedge over each strip of a welded base.
 pub(crate) fn pieces(corners: &[Vec3], welded: bool) -> Box<[Hull]> {
     let n = SEGMENT_SIDES;
     let wedge = |strip: [u32; 4]| {
         let low = strip.iter().map(|k| corners[*k as usize]);
         low.chain(strip.iter().map(|k| corners[n + *k as usize])).collect::<Vec<Vec3>>()
     };
-    // A piece without volume is left out.
+    // A piece without volume is skipped.
     let solid = |points: Vec<Vec3>, sides: usize| Hull::nearly(points, Topology::frustum(sides));
     let cone = solid(corners[n..].to_vec(), n);
     let below: Vec<Hull> = match welded {
@@ -129,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tube_is_what_it_was_made_of_to_the_bit() {
+    fn a_tube_keeps_its_frames_to_the_bit() {
         let x = vec3(1.0, -0.0, 0.0);
         let start = frame(vec3(1.0, 2.0, 3.0), UP, x, 0.5);
         let (straight, turned) = (frame(UP, UP, x, 0.4), frame(UP, UP, vec3(1.0, 0.0, 0.0), 0.4));
@@ -203,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn another_branch_through_a_welded_one_is_seen() {
+    fn a_branch_through_a_welded_branch_intersects_it() {
         let (_, branch) = fork(0.5);
         let across =
             Shape::cylinder(vec3(2.0, 2.0, 0.0), 0.2, 4.0, vec3(0.0, 0.0, 1.0), None, &Look::default());

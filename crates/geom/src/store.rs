@@ -1,8 +1,9 @@
-//! Geometry that shapes have needed lately: hulls, their pieces, and meshes. A shape keeps only its measures.
+//! Recently used geometry of shapes: hulls, their pieces, and meshes. A shape keeps only its measures.
 //!
-//! A population of a thousand particles holds a million shapes, and the hull of a segment with its pieces takes ten times as much
-//! as the segment. Few of them are needed at a time: those of a new shape, and of what is near it. So each thread has a *store*
-//! of limited size; what is not in it is computed again. That gives the same bits, so it does not matter what a store holds.
+//! A population of a thousand particles has a million shapes, and the hull of a segment with its pieces takes ten times as
+//! much memory as the segment. Few hulls are in use at a time: those of a new shape and of shapes near it. So each thread has a
+//! *store* of limited size, and missing geometry is computed again, with the same bits. No result depends on the content of a
+//! store.
 //!
 //! A shape has a *number*, which no other shape of the process has or had. Its last digits are its place in every store. Numbers
 //! ascend, so a new shape takes the place of an old one. A shape that is dropped leaves the store of its thread.
@@ -18,38 +19,38 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Places of a store, a power of two.
 const PLACES: usize = 1 << 13;
-/// Bytes that the stores of all threads hold together, where there are not too many threads.
+/// Bytes of the stores of all threads together, if there are not too many threads.
 const ALL: usize = 128 << 20;
-/// Bytes that any thread's store may hold.
+/// Bytes that the store of any thread may have.
 const LEAST: usize = 4 << 20;
-/// Bytes that the store of a thread holds at most. What a shape may need counts, computed or not.
+/// The most bytes of the store of a thread. The pieces and edges of a hull count, computed or not.
 pub const MOST: usize = 32 << 20;
-/// Numbers that a thread takes at once.
+/// The count of numbers that a thread reserves at once.
 const BLOCK: u64 = 1 << 10;
 
-/// The number of a shape, or none.
+/// The number of a shape, or no number.
 #[derive(Debug)]
 pub(crate) struct Number(u64);
 
 impl Number {
-    /// Of a shape that needs no store.
+    /// The number of a shape that needs no store.
     pub const NONE: Number = Number(0);
 
-    /// One that no other shape has or had.
+    /// A number that no other shape has or had.
     pub fn new() -> Number {
         static NEXT: AtomicU64 = AtomicU64::new(1);
         thread_local! {
-            static OWN: Cell<[u64; 2]> = const { Cell::new([0; 2]) };
+            static RESERVED: Cell<[u64; 2]> = const { Cell::new([0; 2]) };
         }
-        let own = OWN.get();
-        let [next, end] = match own {
-            [next, end] if next < end => own,
+        let reserved = RESERVED.get();
+        let [next, end] = match reserved {
+            [next, end] if next < end => reserved,
             _ => {
                 let next = NEXT.fetch_add(BLOCK, Ordering::Relaxed);
                 [next, next + BLOCK]
             }
         };
-        OWN.set([next + 1, end]);
+        RESERVED.set([next + 1, end]);
         Number(next)
     }
 
@@ -67,14 +68,14 @@ impl Drop for Number {
     }
 }
 
-/// Geometry of the coarse mesh of a shape; whoever uses it holds it.
+/// Geometry of the coarse mesh of a shape. A user holds a reference.
 #[derive(Clone, Debug, Default)]
 struct Entry {
-    /// Of the shape; zero for none.
+    /// The number of the shape; zero for none.
     number: u64,
     hull: Option<Rc<Coarse>>,
     mesh: Option<Rc<TriMesh>>,
-    /// What both take.
+    /// Bytes of hull and mesh.
     bytes: usize,
 }
 
@@ -96,7 +97,7 @@ impl Store {
         self.entries.get(number.place()).filter(|entry| entry.number == number.0)
     }
 
-    /// Adds to the entry of a shape; an older shape leaves its place.
+    /// Adds to the entry of a shape. An older shape at its place goes.
     fn put(&mut self, number: &Number, bytes: usize, add: impl FnOnce(&mut Entry)) {
         if self.entries.is_empty() {
             self.entries = vec![Entry::default(); PLACES];
@@ -129,7 +130,7 @@ impl Store {
     }
 }
 
-/// Bytes that the store of one thread may hold.
+/// Bytes that the store of a thread may have.
 fn bytes_of_one() -> usize {
     static THREADS: OnceLock<usize> = OnceLock::new();
     let threads = THREADS.once(|| std::thread::available_parallelism().map_or(1, usize::from));
@@ -139,8 +140,8 @@ fn bytes_of_one() -> usize {
 /// The hull of a shape: from the store, or computed and stored.
 #[inline]
 pub(crate) fn hull(number: &Number, compute: impl FnOnce() -> Option<Coarse>) -> Option<Rc<Coarse>> {
-    let known = STORE.with_borrow(|store| store.get(number).and_then(|entry| entry.hull.clone()));
-    known.or_else(|| {
+    let stored = STORE.with_borrow(|store| store.get(number).and_then(|entry| entry.hull.clone()));
+    stored.or_else(|| {
         let hull = Rc::new(compute()?);
         keep_hull(number, hull.clone());
         Some(hull)
@@ -155,12 +156,12 @@ pub(crate) fn keep_hull(number: &Number, hull: Rc<Coarse>) {
 
 /// The coarse mesh of a shape: from the store, or computed and stored.
 pub(crate) fn mesh(number: &Number, compute: impl FnOnce() -> TriMesh) -> WorldMesh {
-    let known = STORE.with_borrow(|store| store.get(number).and_then(|entry| entry.mesh.clone()));
-    WorldMesh(known.unwrap_or_else(|| {
+    let stored = STORE.with_borrow(|store| store.get(number).and_then(|entry| entry.mesh.clone()));
+    WorldMesh(stored.unwrap_or_else(|| {
         let mesh = Rc::new(compute());
         if number.0 != 0 {
-            let (kept, bytes) = (mesh.clone(), mesh.bytes());
-            STORE.with_borrow_mut(|store| store.put(number, bytes, |entry| entry.mesh = Some(kept)));
+            let (copy, bytes) = (mesh.clone(), mesh.bytes());
+            STORE.with_borrow_mut(|store| store.put(number, bytes, |entry| entry.mesh = Some(copy)));
         }
         mesh
     }))
@@ -178,12 +179,12 @@ impl Deref for WorldMesh {
     }
 }
 
-/// Bytes that the store of this thread holds.
+/// Bytes of the store of this thread.
 pub fn held() -> usize {
     STORE.with_borrow(|store| store.bytes)
 }
 
-/// Drops all that the store of this thread holds.
+/// Empties the store of this thread.
 pub fn empty() {
     STORE.with_borrow_mut(|store| {
         store.entries.clear();

@@ -1,4 +1,4 @@
-//! Which vertices make which face: shared by all boxes and by all prisms with as many sides.
+//! The vertices of faces, edges and triangles: shared by all boxes, and by all prisms with as many sides.
 //!
 //! A prism has a bottom ring `0..n`, a top ring `n..2n` and the two cap centres `2n` and `2n + 1`, which are
 //! corners of triangles but not of the hull (facts of the original: caps are fans about their centre, `4 n`
@@ -21,7 +21,7 @@ pub struct Topology {
 }
 
 impl Topology {
-    /// From faces alone: edges are collected, faces are cut into fans from their first corner.
+    /// A topology of faces. Edges follow from them, and fans from the first corner of each face are the triangles.
     pub fn from_faces(corners: usize, faces: Vec<Vec<u32>>) -> Topology {
         let mut edges = Vec::new();
         let mut triangles = Vec::new();
@@ -44,12 +44,12 @@ impl Topology {
         faces.sum::<usize>() + size_of_val(&self.edges[..]) + size_of_val(&self.triangles[..])
     }
 
-    /// A box with eight corners.
+    /// The topology of a box with eight corners.
     pub fn cuboid() -> &'static Topology {
         Topology::the_cuboid()
     }
 
-    /// The same, shared.
+    /// The topology of a box, shared.
     pub fn shared_cuboid() -> Arc<Topology> {
         Topology::the_cuboid().clone()
     }
@@ -63,7 +63,7 @@ impl Topology {
         CUBOID.once(build)
     }
 
-    /// A prism or frustum over an `n`-gon whose caps have no middle.
+    /// The topology of a prism or frustum over an `n`-gon whose caps have no middle.
     pub fn frustum(n: usize) -> Arc<Topology> {
         static FRUSTA: [OnceLock<Arc<Topology>>; 17] = [const { OnceLock::new() }; 17];
         let build = || {
@@ -75,7 +75,7 @@ impl Topology {
         FRUSTA.get(n).map_or_else(build, |cell| cell.once(build).clone())
     }
 
-    /// A prism or frustum over an `n`-gon.
+    /// The topology of a prism or frustum over an `n`-gon.
     pub fn prism(n: usize) -> Arc<Topology> {
         static PRISMS: [OnceLock<Arc<Topology>>; 65] = [const { OnceLock::new() }; 65];
         match PRISMS.get(n) {

@@ -1,18 +1,18 @@
-//! A bag of boxed items as a persistent, balanced tree of boxes: finds near items, and the extent of all.
+//! A bag of boxed items as a persistent, balanced tree of boxes. It finds near items, and the extent of all.
 //!
 //! Leaves are short lists of items, from the newest to the oldest, whose tails copies share. Cloning is one reference count.
-//! Changing copies only the path from the root (and not even that when it is not shared), so particles share what they have
-//! in common. The box of all is the extent of the whole bag: an order statistic that removal keeps. A new item goes where boxes
-//! grow least; a list that is full is cut in two. Heights of siblings are kept within one of each other, so that a long chain
-//! of shapes costs no more than a compact scene.
+//! A change copies only the path from the root (and not even the path if it is not shared), so particles share common parts.
+//! The box of all is the extent of the whole bag: an order statistic that removal keeps. A new item goes where boxes
+//! grow least; a full list is cut in two. Heights of siblings differ by at most one, so that a long chain of shapes costs no
+//! more than a compact scene.
 
 use crate::bounds::Aabb;
 use std::sync::Arc;
 
-/// Most items in one leaf: a longer list makes a lower tree, of which less is copied, but more of its items are looked at.
+/// The most items in a leaf. A longer list makes a lower tree: less is copied, but more items are visited.
 const MOST: usize = 12;
 
-/// Something with a box around it.
+/// An item with a box around it.
 pub trait Boxed {
     /// The box.
     fn aabb(&self) -> &Aabb;
@@ -32,7 +32,7 @@ struct Part<T> {
     node: Node<T>,
 }
 
-/// It goes through registers: functions that change a tree take and return it by value.
+/// A node goes through registers: functions that change a tree take and return it by value.
 #[derive(Debug)]
 enum Node<T> {
     Leaf(List<T>),
@@ -44,7 +44,7 @@ type List<T> = Option<Arc<Entry<T>>>;
 #[derive(Debug)]
 struct Entry<T> {
     item: T,
-    /// From here to the oldest.
+    /// The number of items from here to the oldest.
     count: usize,
     older: List<T>,
 }
@@ -110,7 +110,7 @@ impl<T: Clone + Boxed> BoxTree<T> {
         self.all.insert(item);
     }
 
-    /// Removes one item for which `is` holds and whose box is `aabb`; `None` when there is no such item.
+    /// Removes an item for which `is` holds and whose box is `aabb`; `None` without such an item.
     pub fn remove(&mut self, aabb: &Aabb, is: impl Fn(&T) -> bool) -> Option<T> {
         let (rest, item) = without(&self.all.node, aabb, &is)?;
         self.all = rest;
@@ -149,28 +149,28 @@ fn each<T>(list: &List<T>) -> impl Iterator<Item = &T> {
 }
 
 impl<T: Clone + Boxed> Part<T> {
-    /// Of a list.
+    /// The part of a list.
     fn of(list: List<T>) -> Part<T> {
         let aabb = each(&list).fold(Aabb::EMPTY, |all, item| all.union(item.aabb()));
         Part { aabb, node: Node::Leaf(list) }
     }
 
-    /// Adds an item; what nobody shares is changed in place.
+    /// Adds an item. Unshared nodes change in place.
     fn insert(&mut self, item: T) {
         self.aabb = self.aabb.union(item.aabb());
         match &mut self.node {
             Node::Leaf(list) => self.node = longer(list.take(), item),
-            Node::Branch(branch) => match own(branch) {
+            Node::Branch(branch) => match unshared(branch) {
                 None => self.node = with(&self.node, item),
-                Some(own) => {
-                    let near = own.nearer(item.aabb());
-                    own.parts[near].insert(item);
-                    let [a, b] = own.parts.each_ref().map(|part| part.node.height());
+                Some(branch) => {
+                    let near = branch.nearer(item.aabb());
+                    branch.parts[near].insert(item);
+                    let [a, b] = branch.parts.each_ref().map(|part| part.node.height());
                     if a.abs_diff(b) > 1 {
-                        let [a, b] = own.parts.clone();
+                        let [a, b] = branch.parts.clone();
                         self.node = joined(a, b);
                     } else {
-                        own.height = 1 + a.max(b);
+                        branch.height = 1 + a.max(b);
                     }
                 }
             },
@@ -179,7 +179,7 @@ impl<T: Clone + Boxed> Part<T> {
 }
 
 impl<T: Boxed> Branch<T> {
-    /// Which part a box makes grow least.
+    /// The part that grows least with a box.
     #[inline]
     fn nearer(&self, aabb: &Aabb) -> usize {
         let [a, b] = &self.parts;
@@ -188,14 +188,14 @@ impl<T: Boxed> Branch<T> {
     }
 }
 
-/// A branch that nobody shares.
+/// The branch for changes in place; `None` if it is shared.
 #[inline]
-fn own<T>(branch: &mut Arc<Branch<T>>) -> Option<&mut Branch<T>> {
-    // Counting first is cheaper than asking: mostly somebody shares it.
+fn unshared<T>(branch: &mut Arc<Branch<T>>) -> Option<&mut Branch<T>> {
+    // The count is cheaper than `get_mut`: most branches are shared.
     if Arc::strong_count(branch) == 1 { Arc::get_mut(branch) } else { None }
 }
 
-/// A node with one item more; all but the path to the item is shared.
+/// A node with another item; all but the path to the item is shared.
 fn with<T: Clone + Boxed>(node: &Node<T>, item: T) -> Node<T> {
     match node {
         Node::Leaf(list) => longer(list.clone(), item),
@@ -208,7 +208,7 @@ fn with<T: Clone + Boxed>(node: &Node<T>, item: T) -> Node<T> {
     }
 }
 
-/// A list with one item more: of two lists when it would be too long.
+/// A list with another item, or two lists if it would be too long.
 fn longer<T: Clone + Boxed>(list: List<T>, item: T) -> Node<T> {
     let count = list.as_ref().map_or(0, |entry| entry.count);
     if count == MOST {
@@ -217,7 +217,7 @@ fn longer<T: Clone + Boxed>(list: List<T>, item: T) -> Node<T> {
     Node::Leaf(Some(Arc::new(Entry { item, count: count + 1, older: list })))
 }
 
-/// The items of a list, and one more, as two lists: in half along the axis on which their middles are farthest apart.
+/// The items of a list and another item as two lists: halves along the axis on which their middles are farthest apart.
 fn cut<T: Clone + Boxed>(list: &List<T>, item: &T) -> Node<T> {
     let mut items: Vec<&T> = each(list).chain([item]).collect();
     // Twice the middle.
@@ -244,7 +244,7 @@ fn joined<T: Clone + Boxed>(a: Part<T>, b: Part<T>) -> Node<T> {
     }
 }
 
-/// The same where they do differ: the taller one's taller part moves up.
+/// A branch over two parts whose heights differ by two: the taller part of the taller part moves up.
 #[cold]
 #[inline(never)]
 fn level<T: Clone + Boxed>(a: Part<T>, b: Part<T>) -> Node<T> {
@@ -262,7 +262,7 @@ fn branch<T>(a: Part<T>, b: Part<T>) -> Node<T> {
     Node::Branch(Arc::new(Branch { height, parts: [a, b] }))
 }
 
-/// A node without one item, and the item; `None` when it is not there.
+/// A node without an item, and the item; `None` if the node does not have it.
 fn without<T: Clone + Boxed>(node: &Node<T>, aabb: &Aabb, is: &impl Fn(&T) -> bool) -> Option<(Part<T>, T)> {
     match node {
         Node::Leaf(list) => shorter(list, aabb, is).map(|(rest, item)| (Part::of(rest), item)),
@@ -285,14 +285,14 @@ fn without<T: Clone + Boxed>(node: &Node<T>, aabb: &Aabb, is: &impl Fn(&T) -> bo
     }
 }
 
-/// A list without one item, and the item; `None` when it is not there.
+/// A list without an item, and the item; `None` if the list does not have it.
 fn shorter<T: Clone + Boxed>(list: &List<T>, aabb: &Aabb, is: &impl Fn(&T) -> bool) -> Option<(List<T>, T)> {
     let Entry { item, count, older } = &**list.as_ref()?;
     if item.aabb() == aabb && is(item) {
         return Some((older.clone(), item.clone()));
     }
-    let (older, found) = shorter(older, aabb, is)?;
-    Some((Some(Arc::new(Entry { item: item.clone(), count: count - 1, older })), found))
+    let (older, removed) = shorter(older, aabb, is)?;
+    Some((Some(Arc::new(Entry { item: item.clone(), count: count - 1, older })), removed))
 }
 
 #[cfg(test)]
@@ -324,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn it_answers_as_a_list_would() {
+    fn a_tree_agrees_with_a_list() {
         let mut tree = BoxTree::default();
         let mut list: Vec<u64> = Vec::new();
         for k in 0..300 {

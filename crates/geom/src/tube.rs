@@ -1,4 +1,4 @@
-//! The measures of a segment: three rings with marks, and the bark under its base. What they mean is in [`crate::segment`].
+//! The measures of a segment: three rings with marks, and the bark under its base. [`crate::segment`] explains them.
 
 use crate::vector::{Vec3, vec3};
 use serde::{Deserialize, Serialize};
@@ -77,7 +77,7 @@ fn point(n: &[f64]) -> Vec3 {
 }
 
 impl Tube {
-    /// Over the frames `[start, split, end]`, its base on `onto` where that is given.
+    /// A tube over the frames `[start, split, end]`, with its base on `onto`, if any.
     pub fn new(frames: [Frame; 3], onto: Option<Bark>) -> Tube {
         let [start, split, end] = frames;
         let directions = |f: &Frame| [f.forward.to_array(), f.up.to_array()].concat();
@@ -128,13 +128,13 @@ impl Tube {
         self.is_welded().then(bark)
     }
 
-    /// Whether its base is on a parent's bark.
+    /// True if its base is on a parent's bark.
     pub fn is_welded(&self) -> bool {
         let bare = 3 * FRAME;
         ![bare, bare - DIRECTIONS].contains(&self.0.len())
     }
 
-    /// Bytes that it takes beside itself.
+    /// Its bytes on the heap.
     pub(crate) fn bytes(&self) -> usize {
         size_of_val(&self.0[..])
     }
@@ -156,10 +156,10 @@ impl Bark {
         (self.low + along * t, swell * (self.low_radius + (self.high_radius - self.low_radius) * t))
     }
 
-    /// How far `point` must move along the unit direction `down` to lie at the radius times `swell` from its foot.
+    /// The distance along the unit direction `down` from `point` to the radius times `swell` from its foot.
     ///
-    /// The smaller root of `|point + k down - foot| = radius`, its discriminant kept from falling below zero: the
-    /// foot stays where it is, which is exact for a cylinder and close for a slender cone.
+    /// The smaller root of `|point + k down - foot| = radius`, with a discriminant of at least zero. The foot does
+    /// not move, which is exact for a cylinder and close for a slender cone.
     pub(crate) fn drop(&self, point: Vec3, down: Vec3, swell: f64) -> f64 {
         let (foot, radius) = self.below(point, swell);
         let from = point - foot;

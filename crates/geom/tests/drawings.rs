@@ -19,7 +19,7 @@ use std::sync::Arc;
 struct Known {
     shape: Shape,
     outside: Box<dyn Fn([f64; 2]) -> f64>,
-    /// What a distance of one scene unit is at most.
+    /// The upper bound of a distance of one scene unit.
     unit: f64,
 }
 
@@ -126,7 +126,7 @@ fn touched_pixels_are_those_with_a_point_inside() {
 }
 
 #[test]
-fn samples_are_held_where_the_equation_says_so() {
+fn samples_are_covered_where_the_equation_holds() {
     let mut dice = Dice::new(12);
     for k in 0..10 {
         let page = any_page(&mut dice);
@@ -235,7 +235,7 @@ fn history<T: Sketch + Clone + PartialEq>(
 }
 
 #[test]
-fn drawings_score_by_the_formula_whatever_their_history() {
+fn drawings_score_by_the_formula_for_any_history() {
     let mut dice = Dice::new(13);
     for _ in 0..3 {
         let page = any_page(&mut dice);
@@ -261,7 +261,7 @@ fn drawings_score_by_the_formula_whatever_their_history() {
 }
 
 #[test]
-fn textures_score_by_the_formula_whatever_their_history() {
+fn textures_score_by_the_formula_for_any_history() {
     let mut dice = Dice::new(14);
     for _ in 0..2 {
         let page = any_page(&mut dice);
@@ -337,7 +337,7 @@ fn reaching_out_of_the_window_costs_much() {
 }
 
 #[test]
-fn drawings_that_cannot_be_are_refused() {
+fn impossible_drawings_are_refused() {
     let page = |size| Page::new([0.0, 0.0], [1.0, 1.0], size);
     assert!(page([0, 5]).is_err() && Page::new([0.0, 0.0], [0.0, 1.0], [5, 5]).is_err());
     assert!(Page::new([0.0, 0.0], [f64::NAN, 1.0], [5, 5]).is_err());

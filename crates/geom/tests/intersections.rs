@@ -188,14 +188,14 @@ fn boxes_that_touch_in_any_direction_do_not_overlap() {
     }
 }
 
-/// The same coarse mesh as a mesh shape.
+/// A mesh shape of the coarse mesh of a shape.
 fn copy(shape: &Shape) -> Shape {
     let mesh = Arc::new(shape.world_mesh().clone());
     Shape::mesh(&mesh, Vec3::ZERO, 1.0, &Look::default()).unwrap()
 }
 
 #[test]
-fn who_comes_first_does_not_matter_even_at_the_tolerance() {
+fn the_order_does_not_matter_even_at_the_tolerance() {
     let mut dice = Dice::new(4);
     let mut overlapping = 0;
     for _ in 0..2000 {

@@ -26,7 +26,7 @@ fn score(spec: &Arc<dyn SketchSpec>, primitives: &[Primitive]) -> f64 {
 }
 
 #[test]
-fn an_obstacle_forbids_what_fills_its_cells() {
+fn an_obstacle_forbids_shapes_in_its_cells() {
     let spec = avoid(wall());
     assert_eq!(score(&spec, &[]), 0.0);
     // Inside of the obstacle, across its border, around it: all forbidden.
@@ -116,7 +116,7 @@ fn a_floor_allows_shapes_that_touch_it() {
 }
 
 #[test]
-fn overshoot_sums_what_is_outside_over_six_sides() {
+fn overshoot_sums_lengths_outside_over_six_sides() {
     let domain = Aabb { low: vec3(-1.0, 0.0, -1.0), high: vec3(1.0, 4.0, 1.0) };
     let spec = no_overshoot(domain, 0.02).unwrap();
     let most = 2.993_084_6;
@@ -136,7 +136,7 @@ fn overshoot_sums_what_is_outside_over_six_sides() {
 }
 
 #[test]
-fn they_multiply() {
+fn scores_multiply() {
     let specs = [
         floor(0.0).unwrap(),
         avoid(wall()),

@@ -52,7 +52,7 @@ impl Eye {
     }
 }
 
-/// How far along a ray a triangle is, when the ray meets it.
+/// The distance of a triangle along a ray that meets it.
 fn hit([a, b, c]: [Vec3; 3], start: Vec3, along: Vec3) -> Option<f64> {
     let (e, f) = (b - a, c - a);
     let p = along.cross(f);
@@ -68,7 +68,7 @@ fn nearest(mesh: &TriMesh, start: Vec3, along: Vec3) -> Option<f64> {
     mesh.corners().filter_map(|t| hit(t, start, along)).min_by(f64::total_cmp)
 }
 
-/// How many shapes each pixel's ray meets.
+/// Counts of the shapes that the ray of each pixel meets.
 fn silhouettes(eye: &Eye, size: [usize; 2], shapes: &[Shape]) -> Vec<u32> {
     let met = |pixel| {
         let (start, along) = eye.ray(size, pixel);
@@ -77,7 +77,7 @@ fn silhouettes(eye: &Eye, size: [usize; 2], shapes: &[Shape]) -> Vec<u32> {
     (0..size[0] * size[1]).map(met).collect()
 }
 
-/// How many shapes are between the light and the point that each pixel sees of the receiver; `None` sees none.
+/// Counts of the shapes between the light and the point that each pixel sees of the receiver; `None` without a point.
 fn shadows(eye: &Eye, size: [usize; 2], floor: &TriMesh, light: Vec3, shapes: &[Shape]) -> Vec<Option<u32>> {
     let met = |pixel| {
         let (start, along) = eye.ray(size, pixel);
@@ -314,7 +314,7 @@ fn scores_do_not_depend_on_the_order_and_removing_undoes_adding() {
 }
 
 #[test]
-fn copies_share_the_tiles_that_neither_changes() {
+fn copies_share_unchanged_tiles() {
     let mut dice = Dice::new(9);
     let picture = disc_picture(&mut dice);
     let mut trunk = PictureMatch::new("match", picture.clone(), 0.02);
@@ -341,7 +341,7 @@ fn first_on(on: usize, greys: Option<Vec<u8>>, multiplier: f64) -> Result<Pictur
 }
 
 #[test]
-fn the_empty_scene_is_scored_as_what_it_is() {
+fn the_empty_scene_is_a_picture_with_all_pixels_off() {
     // The published images: a skyline with 0.2978 of its pixels on, a ship's front with 0.0885.
     for (on, expected) in [(2978, -107.9), (885, -6.8)] {
         let spec = match_image(Arc::new(first_on(on, None, 10.0).unwrap()), 0.02).unwrap();

@@ -1,5 +1,5 @@
-//! What a store holds does not matter: geometry that is computed again is the same to the bit, and so are the answers. A store
-//! has its limit, whatever is put into it, and holds nothing of shapes that are gone.
+//! No result depends on the content of a store: geometry that is computed again has the same bits. A store keeps its limit,
+//! and has nothing of dropped shapes.
 #![allow(clippy::unwrap_used)] // A test fails where it panics.
 
 mod scenes;
@@ -38,7 +38,7 @@ fn geometry(shape: &Shape) -> String {
 }
 
 #[test]
-fn what_is_computed_again_is_the_same() {
+fn geometry_computed_again_has_the_same_bits() {
     let mut dice = Dice::new(11);
     let mut segments = 0;
     for _ in 0..2000 {
@@ -54,7 +54,7 @@ fn what_is_computed_again_is_the_same() {
 }
 
 #[test]
-fn answers_do_not_depend_on_what_is_stored() {
+fn results_do_not_depend_on_the_store() {
     let mut dice = Dice::new(12);
     let shapes: Vec<Shape> = (0..60).map(|_| shape(&mut dice, 2.0)).collect();
     let grid =
@@ -77,7 +77,7 @@ fn answers_do_not_depend_on_what_is_stored() {
 }
 
 #[test]
-fn a_store_has_a_limit_and_forgets_what_is_dropped() {
+fn a_store_has_a_limit_and_forgets_dropped_shapes() {
     store::empty();
     let mut dice = Dice::new(13);
     // More shapes than a store has places, and more bytes than it may hold.
@@ -102,7 +102,7 @@ fn a_store_has_a_limit_and_forgets_what_is_dropped() {
 }
 
 #[test]
-fn shapes_take_no_more_than_they_say() {
+fn shapes_take_no_more_bytes_than_they_report() {
     let mut dice = Dice::new(14);
     for _ in 0..100 {
         assert!(segment(&mut dice, 1.0).bytes() <= 512);

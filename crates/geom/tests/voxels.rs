@@ -182,7 +182,7 @@ fn counts_are_those_of_a_list_of_sets_in_any_order() {
 }
 
 #[test]
-fn copies_do_not_see_each_other_and_share_the_rest() {
+fn copies_are_independent_and_share_unchanged_data() {
     let mut dice = Dice::new(11);
     let target = target();
     let mut trunk = VolumeMatch::new(target.clone(), 0.02);

@@ -108,7 +108,7 @@ fn on_page(page: &Page, place: &Place) -> ([f64; 2], [f64; 2]) {
 }
 
 #[test]
-fn drawings_show_what_loops_over_pixels_count() {
+fn windows_of_drawings_agree_with_loops_over_pixels() {
     let mut dice = Dice::new(1);
     for _ in 0..6 {
         let page = any_page(&mut dice);
@@ -156,7 +156,7 @@ fn picture(on: Vec<bool>, size: [usize; 2], rays: Rays) -> Arc<Picture> {
 
 /// Parallel along z, a picture is a page; in perspective the window lies where the place is seen.
 #[test]
-fn pictures_show_what_loops_over_pixels_count() {
+fn windows_of_pictures_agree_with_loops_over_pixels() {
     let mut dice = Dice::new(2);
     for round in 0..6 {
         let size = [20 + dice.below(80), 20 + dice.below(80)];
@@ -197,7 +197,7 @@ fn pictures_show_what_loops_over_pixels_count() {
 
 /// The shadow of a place falls along the light: there the window shows what should be dark.
 #[test]
-fn shadows_are_looked_at_along_the_light() {
+fn windows_of_shadows_look_along_the_light() {
     let corner = |x: f64, z: f64| vec3(4.0 * x, -1.0, 4.0 * z);
     let floor = vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
     let floor = TriMesh::new(floor, vec![[0, 2, 1], [0, 3, 2]]).unwrap();
@@ -247,7 +247,7 @@ fn by_cells(sketch: &VolumeMatch, target: &Target, side: i64, first: [i64; 3]) -
 }
 
 #[test]
-fn volumes_show_what_loops_over_cells_count() {
+fn windows_of_volumes_agree_with_loops_over_cells() {
     let mut dice = Dice::new(3);
     for voxel in [0.13, 0.05, 0.03] {
         let target = Arc::new(Target::new(torus(1.4, 0.5, 12, 8), voxel).unwrap());
@@ -288,7 +288,7 @@ fn volumes_show_what_loops_over_cells_count() {
 
 /// A page, its drawing, its scene and the place turned by 90 degrees show the same, whatever the number of pixels.
 #[test]
-fn what_turns_with_its_place_shows_the_same() {
+fn a_turn_of_scene_and_place_changes_no_window() {
     let mut dice = Dice::new(4);
     let quarter = |p: Vec3| vec3(-p.y, p.x, p.z);
     let size = 37;

@@ -313,7 +313,7 @@ def _check_required(tree: dict[str, Any]) -> None:
     """Refuse a file that requires an unknown extension."""
     for name in _list(tree.get("extensionsRequired", []), "`extensionsRequired`"):
         if not isinstance(name, str) or not (name in _KNOWN or name.startswith(_LOOKS)):
-            reason = f"it requires the extension {name!a:.60}, which is not supported"
+            reason = f"it requires the extension {name!a:.60}, which is not known"
             if "draco" in str(name) or "meshopt" in str(name):
                 reason = f"its meshes are compressed ({name!a:.60}); export them without compression"
             raise Unreadable(reason)

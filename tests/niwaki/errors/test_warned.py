@@ -21,6 +21,6 @@ def test_warnings_name_the_users_line(tmp_path: Path) -> None:
         warnings.simplefilter("always")
         nw.Target(open_box.vertices, faces)
         line = inspect.currentframe().f_lineno - 1  # type: ignore[union-attr]
-        targets.asks.score(targets.asks.asked({"target": str(file)}))
+        targets.asks.score(targets.asks.sketches_of({"target": str(file)}))
     assert [warning.filename for warning in caught] == [__file__] * 2
     assert [warning.lineno for warning in caught] == [line, line + 2]

@@ -54,10 +54,10 @@ def nothing():
 
 
 def test_pixels_and_rounding() -> None:
-    wanted, made = np.zeros((10, 10), bool), np.zeros((10, 10), bool)
-    wanted[:5], made[3:8] = True, True
-    assert Fit.of_masks(wanted, made) == Fit(0.4, 0.6)
-    assert Fit.of_masks(wanted, ~wanted & wanted) == Fit(0.0, 0.0)
+    target, scene = np.zeros((10, 10), bool), np.zeros((10, 10), bool)
+    target[:5], scene[3:8] = True, True
+    assert Fit.of_masks(target, scene) == Fit(0.4, 0.6)
+    assert Fit.of_masks(target, ~target & target) == Fit(0.0, 0.0)
     # Nearly all is not all, and nearly nothing is not nothing.
     assert str(Fit(0.99999, 0.00001)) == "99.9 % covered, 0.1 % outside"
     assert str(Fit(1.0, 0.0)) == "100.0 % covered, 0.0 % outside"
@@ -92,24 +92,24 @@ def test_cells_are_those_that_the_score_counts() -> None:
     scene = Scene([(f"{k}", [shape]) for k, shape in enumerate(shapes)])
     found = cells(SCORE, scene)
     assert found is not None
-    inside = int((found.made & found.wanted).sum())
-    assert of(*shapes).covered == inside / int(found.wanted.sum())
+    inside = int((found.scene & found.target).sum())
+    assert of(*shapes).covered == inside / int(found.target.sum())
     sketch = nw._engine.Sketch(SCORE.specs)
     for shape in shapes:
         sketch.add([shape])
-    assert sketch.measures()["filled"] == found.made.sum()
-    assert sketch.similarity() == 1.0 - (found.made != found.wanted).sum() / found.made.size
+    assert sketch.measures()["filled"] == found.scene.sum()
+    assert sketch.similarity() == 1.0 - (found.scene != found.target).sum() / found.scene.size
 
 
 def test_the_cells_of_a_box_are_those_that_it_touches() -> None:
     found = cells(SCORE, Scene([("0", [box((0.5, 1, 0), (0.46, 0.94, 0.46))])]))
     assert found is not None
-    step = (found.high - found.low) / found.made.shape
+    step = (found.high - found.low) / found.scene.shape
     edges = [
-        low + size * np.arange(n + 1) for low, size, n in zip(found.low, step, found.made.shape, strict=True)
+        low + size * np.arange(n + 1) for low, size, n in zip(found.low, step, found.scene.shape, strict=True)
     ]
     touched = [
         (e[:-1] <= b) & (e[1:] >= a)
         for e, a, b in zip(edges, (0.27, 0.53, -0.23), (0.73, 1.47, 0.23), strict=True)
     ]
-    assert np.array_equal(found.made, np.einsum("x,y,z->xyz", *touched))
+    assert np.array_equal(found.scene, np.einsum("x,y,z->xyz", *touched))

@@ -102,6 +102,23 @@ def test_limits() -> None:
     assert nw.overshoot(cube(size=6.0)).specs[0].name == "overshoot"
 
 
+def test_the_engine_names_a_sketch_as_the_function_that_makes_it() -> None:
+    greys, plane = np.where(ON, 0, 255).astype(np.uint8), ((0, 0), (1, 1))
+    scores = [
+        nw.no_self_intersection(),
+        nw.match_drawing(greys, plane),
+        nw.fill_drawing(plane),
+        nw.floor(),
+        nw.avoid(cube()),
+        nw.match_image(ON, CAMERA),
+        nw.match_shadow(ON, (0, -1, 0), nw.Receiver.floor()),
+        nw.overshoot(cube()),
+        nw.match_volume(cube()),
+    ]
+    sketches = [sketch for score in scores for sketch in score.asks]
+    assert [(sketch.function, sketch.spec.name) for sketch in sketches] == [(name, name) for name in SKETCHES]
+
+
 @nw.model
 def tower() -> None:
     nw.emit(nw.box((0, 0.5, 0), (1, 1, 1)))

@@ -1,6 +1,6 @@
 //! A small block of counts, bit-sliced: plane `k` holds bit `k` of every count, one bit of 64 words for each cell.
 //!
-//! Adding a set of cells is a ripple carry, removing one a ripple borrow, 64 cells for each word operation:
+//! Adding a set of cells is a ripple carry, removing a set a ripple borrow, 64 cells for each word operation:
 //!
 //! ```text
 //! carry = cells;   plane, carry = plane ^ carry, plane & carry      (then the next plane)
@@ -15,7 +15,7 @@ pub type Plane = [u64; 64];
 /// Counts of 64 words of cells.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Brick {
-    /// Most cells have one count or none: the lowest plane is always there.
+    /// The lowest plane, which always exists: most counts are 0 or 1.
     lowest: Plane,
     higher: Vec<Plane>,
 }
@@ -29,7 +29,7 @@ impl Default for Brick {
 /// The rows of a brick at one z.
 pub type Slab = [u64; 8];
 
-/// `f` of two, word by word.
+/// `f` of two planes, word by word.
 #[inline]
 fn each<const N: usize>(a: &[u64; N], b: &[u64; N], f: impl Fn(u64, u64) -> u64) -> [u64; N] {
     std::array::from_fn(|k| f(a[k], b[k]))
@@ -42,20 +42,20 @@ pub fn any<const N: usize>(words: &[u64; N]) -> bool {
 }
 
 impl Brick {
-    /// Adds one to `cells`, words from `N * at` on; returns those that had none.
+    /// Adds one to the counts of `cells`, words from `N * at` on; returns the cells whose count was 0.
     #[inline]
     pub fn raise<const N: usize>(&mut self, at: usize, cells: &[u64; N]) -> [u64; N] {
         let lowest = part(&mut self.lowest, at);
         let (new, carry) = (each(cells, lowest, |c, old| c & !old), each(cells, lowest, |c, old| c & old));
         *lowest = each(cells, lowest, |c, old| c ^ old);
-        // Mostly it ends here: no cell has two.
+        // Most calls end here: no count is above 1.
         if self.higher.is_empty() && !any(&carry) {
             return new;
         }
         self.carry(at, carry, new)
     }
 
-    /// Adds `carry` to the planes above the lowest; returns those of `new` that these do not have.
+    /// Adds `carry` to the planes above the lowest; returns the cells of `new` that these planes lack.
     fn carry<const N: usize>(&mut self, at: usize, mut carry: [u64; N], mut new: [u64; N]) -> [u64; N] {
         for plane in &mut self.higher {
             let words = part(plane, at);
@@ -70,22 +70,23 @@ impl Brick {
         new
     }
 
-    /// Subtracts one from `cells`, words from `N * at` on, all of which must have one; returns those that have none now.
+    /// Subtracts one from the counts of `cells`, words from `N * at` on, which must be above 0; returns the cells whose count
+    /// is 0 now.
     #[inline]
     pub fn lower<const N: usize>(&mut self, at: usize, cells: &[u64; N]) -> [u64; N] {
-        let (mut borrow, mut gone) = (*cells, *cells);
+        let (mut borrow, mut emptied) = (*cells, *cells);
         for plane in std::iter::once(&mut self.lowest).chain(&mut self.higher) {
             let words = part(plane, at);
             let old = *words;
             *words = each(&borrow, &old, |b, old| b ^ old);
             borrow = each(&borrow, &old, |b, old| b & !old);
-            gone = each(&gone, words, |g, after| g & !after);
+            emptied = each(&emptied, words, |g, after| g & !after);
         }
         debug_assert!(!any(&borrow), "a cell was emptied that nothing filled");
-        gone
+        emptied
     }
 
-    /// Drops planes that hold nothing; true when no count is left.
+    /// Drops empty planes; true when no count remains.
     #[inline]
     pub fn trim(&mut self) -> bool {
         while self.higher.last().is_some_and(|top| !any(top)) {
@@ -94,7 +95,7 @@ impl Brick {
         self.is_empty()
     }
 
-    /// True when there is no count.
+    /// True when every count is 0.
     #[inline]
     pub fn is_empty(&self) -> bool {
         self.higher.is_empty() && !any(&self.lowest)
@@ -104,7 +105,7 @@ impl Brick {
         std::iter::once(&self.lowest).chain(&self.higher)
     }
 
-    /// Cells of a word that have a count.
+    /// Cells of a word whose count is above 0.
     #[inline]
     pub fn any(&self, word: usize) -> u64 {
         self.higher.iter().fold(self.lowest[word], |all, plane| all | plane[word])

@@ -1,4 +1,4 @@
-//! How many shapes fill each cell of a grid, in bricks that copies share.
+//! Counts of the shapes that fill each cell of a grid, in bricks that copies share.
 //!
 //! A brick without counts is not stored, so that equal counts are equal data.
 
@@ -13,19 +13,19 @@ use std::sync::Arc;
 pub struct Change {
     /// Cells that became filled, less those that became empty.
     pub filled: i64,
-    /// The same, among the cells of the target.
+    /// The change among the cells of the target.
     pub inside: i64,
 }
 
-/// The counts of a brick, and what windows need of it once they are expected.
+/// The counts of a brick, and its sums for windows once these are expected.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Cells {
     pub counts: Brick,
-    /// Filled cells that the target wants, and the other filled cells, by boxes.
+    /// Filled cells of the target, and the other filled cells, by boxes.
     pub sums: Option<Box<Sums>>,
 }
 
-/// Cells that the target wants, and the others.
+/// Cells of the target, and the other cells.
 #[inline]
 fn split(cells: u64, target: u64) -> [u64; 2] {
     [cells & target, cells & !target]
@@ -39,19 +39,19 @@ type Layer = Arc<[Option<Arc<Cells>>]>;
 pub struct Counters {
     layers: Arc<[Layer]>,
     across: [usize; 3],
-    /// Bricks keep sums.
+    /// True once bricks keep sums.
     windows: bool,
 }
 
 impl Counters {
-    /// All zero.
+    /// Counters of zero.
     pub fn new(dims: [usize; 3]) -> Counters {
         let across = bricks_of(dims);
         let layer: Layer = vec![None; across[0] * across[1]].into();
         Counters { layers: vec![layer; across[2]].into(), across, windows: false }
     }
 
-    /// Adds one to every cell of `voxels`; `target` gives the wanted cells.
+    /// Adds one to the count of every cell of `voxels`; `target` has the cells of the target.
     pub fn add(&mut self, voxels: &Voxels, target: &[Plane]) -> Change {
         let windows = self.windows;
         let mut change = Change::default();
@@ -80,7 +80,7 @@ impl Counters {
         change
     }
 
-    /// Subtracts one from every cell of `voxels`, all of which must have one.
+    /// Subtracts one from the count of every cell of `voxels`, which must be above 0.
     pub fn remove(&mut self, voxels: &Voxels, target: &[Plane]) -> Change {
         let mut change = Change::default();
         self.visit_mut(&voxels.cells, target, |place, target, rows| {
@@ -88,11 +88,11 @@ impl Counters {
             let cells = Arc::make_mut(cells);
             let (brick, sums) = (&mut cells.counts, &mut cells.sums);
             let [filled, inside] = counted(voxels, target, rows, |slab, cells| {
-                let gone = brick.lower(slab, cells);
+                let emptied = brick.lower(slab, cells);
                 if let Some(sums) = sums {
-                    (0..8).for_each(|y| sums.remove(8 * slab + y, split(gone[y], target[8 * slab + y])));
+                    (0..8).for_each(|y| sums.remove(8 * slab + y, split(emptied[y], target[8 * slab + y])));
                 }
-                gone
+                emptied
             });
             change.filled -= filled;
             change.inside -= inside;
@@ -105,7 +105,7 @@ impl Counters {
         change
     }
 
-    /// Visits the bricks that `cells` touch: its place in a layer that nobody shares, its cells of the target, and its rows.
+    /// Visits the bricks that `cells` touch: the place in an unshared layer, the cells of the target, and the rows.
     fn visit_mut(
         &mut self,
         cells: &CellBox,
@@ -126,12 +126,12 @@ impl Counters {
         }
     }
 
-    /// True once bricks keep what windows need.
+    /// True once bricks keep sums for windows.
     pub(crate) fn expects_windows(&self) -> bool {
         self.windows
     }
 
-    /// From now on bricks keep what windows need.
+    /// Makes bricks keep sums for windows from now on.
     pub(crate) fn expect_windows(&mut self, target: &[Plane]) {
         if std::mem::replace(&mut self.windows, true) {
             return;
@@ -172,7 +172,7 @@ impl Counters {
     }
 }
 
-/// Changes a brick slab by slab, and counts the cells that `change` returns, and those of them that the target wants.
+/// Changes a brick slab by slab, and counts the cells that `change` returns, and the target's cells among them.
 #[inline]
 fn counted(
     voxels: &Voxels,
@@ -190,7 +190,7 @@ fn counted(
     all.map(Ones::sum)
 }
 
-/// Numbers of set bits of slabs, eight at most: each byte counts sixteen bits of a slab.
+/// Counts of set bits of up to eight slabs: each byte counts sixteen bits of a slab.
 #[derive(Clone, Copy, Default)]
 struct Ones([u64; 4]);
 

@@ -1,4 +1,4 @@
-//! How the cells of a grid lie in bricks: 64 by 8 by 8 cells, 64 words, one bit for each cell.
+//! The layout of the cells of a grid in bricks: 64 by 8 by 8 cells, 64 words, one bit for each cell.
 
 use super::brick::{Plane, Slab};
 use crate::voxel::{CellBox, Voxels};
@@ -12,7 +12,7 @@ pub fn bricks_of(dims: [usize; 3]) -> [usize; 3] {
     std::array::from_fn(|a| dims[a].div_ceil(BRICK[a]))
 }
 
-/// What of a box of cells lies in a brick: the column of words, and the first and last y and z.
+/// The part of a box of cells in a brick: the column of words, and the first and last y and z.
 #[derive(Clone, Copy)]
 pub(super) struct Rows {
     pub column: usize,
@@ -21,7 +21,8 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    /// Calls `f` with the slabs of the brick that lie there, and the cells of `voxels` in them, until it says true; whether it did.
+    /// Calls `f` with the slabs of the brick in this part, and the cells of `voxels` in them, until it returns true. Returns
+    /// true if it did.
     #[inline]
     pub fn any_slab(self, voxels: &Voxels, mut f: impl FnMut(usize, &Slab) -> bool) -> bool {
         let Rows { column, y, z: [first, last] } = self;
@@ -45,7 +46,8 @@ pub(super) fn parts(cells: CellBox, axis: usize) -> impl Iterator<Item = (usize,
     (low / size..=high / size).map(move |b| (b, [low.max(b * size), high.min(b * size + size - 1)]))
 }
 
-/// Calls `f` with the bricks that `cells` touch, the index of each and its rows, until it says true; whether it did.
+/// Calls `f` with the bricks that `cells` touch, the index of each and its rows, until it returns true. Returns true if it
+/// did.
 #[inline]
 pub(super) fn any_brick(cells: CellBox, across: [usize; 3], mut f: impl FnMut(usize, Rows) -> bool) -> bool {
     for (layer, z) in parts(cells, 2) {
@@ -60,7 +62,7 @@ pub(super) fn any_brick(cells: CellBox, across: [usize; 3], mut f: impl FnMut(us
     false
 }
 
-/// Those of `cells` that slab `slab` of the target has, too.
+/// The cells that `cells` and slab `slab` of the target share.
 #[inline]
 pub(super) fn both(cells: &Slab, target: &Plane, slab: usize) -> Slab {
     let target = &target.as_chunks::<8>().0[slab];

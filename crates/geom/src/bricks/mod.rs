@@ -1,9 +1,9 @@
-//! Cells of a grid in bricks that copies share: how many shapes fill each, and which of them a target fills.
+//! Cells of a grid in bricks that copies share: counts of the shapes that fill them, and the cells of a target.
 //!
-//! - [`layout`]: how cells lie in bricks
+//! - [`layout`]: the cells of a brick
 //! - [`brick`]: a small block of counts, bit-sliced
 //! - `sums`: counts over larger boxes, for windows
-//! - [`counters`]: how many shapes fill each cell
+//! - [`counters`]: counts of the shapes that fill each cell
 //! - [`target`]: the cells to fill
 
 pub mod brick;

@@ -3,21 +3,21 @@
 use super::brick::Plane;
 use super::layout::bricks_of;
 
-/// Each second byte of a word.
+/// A mask of every second byte of a word.
 const BYTES: u64 = 0x00ff_00ff_00ff_00ff;
 
-/// How many bits of a brick are set in each box of 4 and of 8 cells, in two channels.
+/// Counts of the set bits of a brick in each box of 4 and of 8 cells, in two channels.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Sums {
-    /// By channel, by quarter of the brick (y / 4 + 2 (z / 4)), and by parity of the box along x: byte `k` counts
-    /// box `2 k + parity`, 64 at most.
+    /// Counts of boxes of 4, by channel, by quarter of the brick (y / 4 + 2 (z / 4)), and by parity of the box along x: byte
+    /// `k` counts box `2 k + parity`, 64 at most.
     fours: [[[u64; 2]; 4]; 2],
-    /// By channel and box along x.
+    /// Counts of boxes of 8, by channel and box along x.
     eights: [[u16; 8]; 2],
 }
 
 impl Sums {
-    /// Of the 64 words of a brick.
+    /// The sums of the 64 words of a brick.
     pub fn of(words: impl Fn(usize) -> [u64; 2]) -> Sums {
         let mut sums = Sums::default();
         (0..64).for_each(|word| sums.add(word, words(word)));
@@ -31,7 +31,7 @@ impl Sums {
         self.change(word, bits, |sum, n| *sum += n);
     }
 
-    /// Takes bits of a word out again; [`Sums::settle`] follows.
+    /// Subtracts bits of a word; [`Sums::settle`] follows.
     #[inline]
     pub fn remove(&mut self, word: usize, bits: [u64; 2]) {
         self.change(word, bits, |sum, n| *sum -= n);
@@ -49,7 +49,7 @@ impl Sums {
         }
     }
 
-    /// Makes the boxes of 8 the sums of those of 4.
+    /// Updates the boxes of 8 from the boxes of 4.
     #[inline]
     pub fn settle(&mut self) {
         for (fours, eights) in self.fours.iter().zip(&mut self.eights) {
@@ -63,19 +63,19 @@ impl Sums {
         }
     }
 
-    /// Of a box of 4 cells.
+    /// The counts of a box of 4 cells.
     #[inline]
     pub fn four(&self, [x, y, z]: [usize; 3]) -> [i32; 2] {
         self.fours.each_ref().map(|fours| (fours[y + 2 * z][x % 2] >> (x / 2 * 8) & 0xff) as i32)
     }
 
-    /// Of a box of 8 cells.
+    /// The counts of a box of 8 cells.
     #[inline]
     pub fn eight(&self, x: usize) -> [i32; 2] {
         self.eights.each_ref().map(|eights| i32::from(eights[x & 7]))
     }
 
-    /// Of the part in this brick of a box of 16 cells.
+    /// The counts of the part of a box of 16 cells in this brick.
     #[inline]
     pub fn sixteen(&self, x: usize) -> [i32; 2] {
         let ([a, b], [c, d]) = (self.eight(2 * x), self.eight(2 * x + 1));
@@ -89,7 +89,7 @@ pub(crate) fn domain(dims: [usize; 3], column: usize) -> u64 {
     u64::MAX >> (64 - (dims[0] - 64 * column).min(64))
 }
 
-/// Wanted and empty cells of a target, brick by brick.
+/// Sums of the filled and the empty cells of a target, brick by brick.
 pub(crate) fn sums_of(planes: &[Plane], dims: [usize; 3]) -> Vec<Sums> {
     let across = bricks_of(dims);
     let of = |(index, plane): (usize, &Plane)| {

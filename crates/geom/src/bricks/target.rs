@@ -17,7 +17,7 @@ pub struct Target {
     grid: Grid,
     planes: Vec<Plane>,
     filled: usize,
-    /// What windows need, once one asks.
+    /// Sums for windows, once a window needs them.
     sums: OnceLock<Vec<Sums>>,
 }
 
@@ -55,7 +55,7 @@ impl Target {
         self.filled
     }
 
-    /// Its filled cells, brick by brick.
+    /// The filled cells, brick by brick.
     #[inline]
     pub(crate) fn planes(&self) -> &[Plane] {
         &self.planes
@@ -68,7 +68,7 @@ impl Target {
         &self.planes[layer * across[0] * across[1] + place]
     }
 
-    /// Wanted and empty cells by boxes, brick by brick.
+    /// Sums of the filled and the empty cells, brick by brick.
     pub(crate) fn sums(&self) -> &[Sums] {
         self.sums.once(|| sums_of(&self.planes, self.grid.dims()))
     }
@@ -94,7 +94,7 @@ impl Target {
         })
     }
 
-    /// Calls `fill` with each cell that shapes fill, those of several more than once: the cells that the score counts.
+    /// Calls `fill` with each cell that shapes fill, as the score counts them. Cells of several shapes come more than once.
     pub fn visit_filled(&self, shapes: &[Shape], mut fill: impl FnMut([usize; 3])) {
         for voxels in shapes.iter().filter_map(|shape| Voxels::of(shape, &self.grid)) {
             let CellBox { low, high } = voxels.cells;

@@ -11,8 +11,8 @@ use std::collections::HashMap;
 /// Smallest scale of the tapered end: a pyramid's tip keeps directions for its normals.
 const TIP: f64 = 1e-6;
 
-/// Vertices by their place on the sharp box and their normal: two faces share those of a rounded edge.
-type Known = HashMap<([u64; 3], [u64; 3]), u32>;
+/// Vertices by their place on the sharp box and their normal. Two faces share the vertices of a rounded edge.
+type Vertices = HashMap<([u64; 3], [u64; 3]), u32>;
 
 /// A box of full side lengths `size`, its +z face scaled by `taper`, edges rounded by `bevel` in `[0, 1]`.
 pub fn rounded(size: Vec3, taper: f64, bevel: f64) -> FineMesh {
@@ -20,10 +20,10 @@ pub fn rounded(size: Vec3, taper: f64, bevel: f64) -> FineMesh {
     let narrow = half.x.min(half.y) * taper.clamp(0.25, 1.0);
     let radius = bevel * narrow.min(half.z);
     let mut mesh = FineMesh::default();
-    let mut known = Known::new();
+    let mut vertices = Vertices::new();
     for axis in 0..3 {
         for sign in [1.0, -1.0] {
-            side(&mut mesh, &mut known, half, radius, axis, sign);
+            side(&mut mesh, &mut vertices, half, radius, axis, sign);
         }
     }
     if taper != 1.0 {
@@ -32,8 +32,8 @@ pub fn rounded(size: Vec3, taper: f64, bevel: f64) -> FineMesh {
     mesh
 }
 
-/// One of the six faces with its share of the rounded edges.
-fn side(mesh: &mut FineMesh, known: &mut Known, half: Vec3, radius: f64, axis: usize, sign: f64) {
+/// A face with its share of the rounded edges.
+fn side(mesh: &mut FineMesh, vertices: &mut Vertices, half: Vec3, radius: f64, axis: usize, sign: f64) {
     let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
     let (along_a, along_b) = (grid(half[a], radius), grid(half[b], radius));
     let inner = [half.x - radius, half.y - radius, half.z - radius];
@@ -49,7 +49,7 @@ fn side(mesh: &mut FineMesh, known: &mut Known, half: Vec3, radius: f64, axis: u
             let normal = unit_or(outward, vec3(flat[0], flat[1], flat[2]));
             let key = (at.map(f64::to_bits), normal.to_array().map(f64::to_bits));
             let number =
-                known.entry(key).or_insert_with(|| mesh.point(vec3(x, y, z) + normal * radius, normal));
+                vertices.entry(key).or_insert_with(|| mesh.point(vec3(x, y, z) + normal * radius, normal));
             numbers.push(*number);
         }
     }

@@ -1,7 +1,7 @@
 //! Normals for any mesh: smooth at small angles, sharp at large ones.
 //!
-//! At each corner of each face the normals of the faces around that vertex are averaged, weighted by their angle at
-//! the vertex (Thurmer & Wuthrich 1998), leaving out those that turn away by more than the crease angle.
+//! The normal at a corner of a face is the mean of the normals of the faces around that vertex, weighted by their angle at
+//! the vertex (Thurmer & Wuthrich 1998). Faces that turn away by more than the crease angle do not count.
 
 use super::mesh::{FineMesh, unit_or};
 use crate::mesh::TriMesh;
@@ -11,12 +11,12 @@ use std::collections::HashMap;
 /// Cosine of the angle (40 degrees) beyond which an edge stays sharp.
 pub const SHARP: f64 = 0.766;
 
-/// Bits of a position or normal; adding zero makes the two zeros one.
+/// Bits of a position or normal; adding zero makes the two zeros equal.
 fn key(v: Vec3) -> [u64; 3] {
     v.to_array().map(|c| (c + 0.0).to_bits())
 }
 
-/// The mesh with its vertices split where its normals must differ.
+/// The mesh with vertices split where normals differ.
 pub fn creased(mesh: &TriMesh, sharp: f64) -> FineMesh {
     let corners: Vec<[Vec3; 3]> = mesh.corners().collect();
     let across: Vec<Vec3> =
@@ -28,7 +28,7 @@ pub fn creased(mesh: &TriMesh, sharp: f64) -> FineMesh {
         }
     }
     let mut fine = FineMesh::default();
-    let mut known: HashMap<([u64; 3], [u64; 3]), u32> = HashMap::new();
+    let mut vertices: HashMap<([u64; 3], [u64; 3]), u32> = HashMap::new();
     for (face, points) in corners.iter().enumerate() {
         if across[face] == Vec3::ZERO {
             continue; // a triangle without area has no normal
@@ -40,7 +40,7 @@ pub fn creased(mesh: &TriMesh, sharp: f64) -> FineMesh {
                 .filter(|(other, _)| across[*other].dot(across[face]) >= sharp)
                 .fold(Vec3::ZERO, |sum, (other, weight)| sum + across[*other] * *weight);
             let normal = unit_or(sum, across[face]);
-            *known.entry((place, key(normal))).or_insert_with(|| fine.point(p, normal))
+            *vertices.entry((place, key(normal))).or_insert_with(|| fine.point(p, normal))
         });
         fine.faces.push(numbers);
     }

@@ -1,6 +1,6 @@
 //! A limb: a smooth tube between two rings, and a dome over its end.
 //!
-//! The axis is the cubic that leaves the first ring along its normal and meets the second along its own (Hermite
+//! The axis is the cubic that leaves the first ring along its normal and meets the second ring along its normal (Hermite
 //! form), so that limbs that share a ring bend into one another. Normals on the side point straight away from the
 //! axis *in the ring's plane*: neighbours agree there, and a branch of many limbs looks like one surface. The dome is
 //! hidden by the next limb, and rounds off the last.
@@ -15,7 +15,7 @@ pub const DOME: f64 = 0.4;
 const STEPS: usize = 6;
 /// Rings of the dome.
 const LATITUDES: usize = 5;
-/// Steeper sides (radius lost for each unit of length) are shaded as the cones that they are.
+/// The largest slope (radius for each unit of length) of a side that is shaded as a tube; steeper sides are cones.
 const STEEP: f64 = 0.5;
 
 /// The limb between two rings.
@@ -48,7 +48,7 @@ pub(super) fn close(mesh: &mut FineMesh, base: &[u32], middle: Vec3, normal: Vec
     }
 }
 
-/// Half of a flattened sphere over the row `below`, which lies on `end`; its normals are its gradient's.
+/// Half of a flattened sphere over the row `below`, which lies on `end`; its normals are those of its gradient.
 pub(super) fn dome(mesh: &mut FineMesh, end: &Ring, mut below: Vec<u32>) {
     for latitude in 1..LATITUDES {
         let (sin, cos) = (std::f64::consts::FRAC_PI_2 * latitude as f64 / LATITUDES as f64).sin_cos();
@@ -65,7 +65,7 @@ pub(super) fn dome(mesh: &mut FineMesh, end: &Ring, mut below: Vec<u32>) {
     }
 }
 
-/// The ring at the fraction `t` of the axis; the given rings themselves, to the bit, at 0 and 1.
+/// The ring at the fraction `t` of the axis; at 0 and 1 the ends, to the bit.
 pub(super) fn between(start: &Ring, end: &Ring, t: f64) -> Ring {
     if t == 0.0 || t == 1.0 {
         return if t == 0.0 { *start } else { *end };

@@ -3,18 +3,18 @@
 use crate::mesh::TriMesh;
 use crate::vector::Vec3;
 
-/// Sides of everything round.
+/// Sides of round solids.
 pub const ROUND: usize = 48;
 /// Segments of a rounded edge for each quarter turn.
 pub const ARC: usize = 6;
 /// Triangles with a unit normal at every vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FineMesh {
-    /// Scene units.
+    /// Positions, scene units.
     pub vertices: Vec<Vec3>,
-    /// As many as vertices, or none.
+    /// Unit normals, one for each vertex, or none.
     pub normals: Vec<Vec3>,
-    /// Counter-clockwise seen from outside.
+    /// Triangles, counter-clockwise seen from outside.
     pub faces: Vec<[u32; 3]>,
 }
 
@@ -40,26 +40,26 @@ impl FineMesh {
         self.face([a, c, d]);
     }
 
-    /// Removes the vertices of no triangle: a row that has shrunk to a point leaves some.
+    /// Removes vertices without a triangle, as a row that has shrunk to a point leaves them.
     pub(crate) fn without_unused(self) -> FineMesh {
         let mut used = vec![false; self.vertices.len()];
         for &corner in self.faces.iter().flatten() {
             used[corner as usize] = true;
         }
-        if used.iter().all(|&one| one) {
+        if used.iter().all(|&is_used| is_used) {
             return self;
         }
-        let mut kept = FineMesh::default();
+        let mut mesh = FineMesh::default();
         let mut numbers = Vec::with_capacity(used.len());
         for ((&place, &normal), &is_used) in self.vertices.iter().zip(&self.normals).zip(&used) {
-            numbers.push(if is_used { kept.point(place, normal) } else { 0 });
+            numbers.push(if is_used { mesh.point(place, normal) } else { 0 });
         }
-        kept.faces = self.faces.iter().map(|face| face.map(|corner| numbers[corner as usize])).collect();
-        kept
+        mesh.faces = self.faces.iter().map(|face| face.map(|corner| numbers[corner as usize])).collect();
+        mesh
     }
 }
 
-/// All as one mesh, without joining them.
+/// Several meshes as one, without joining them.
 impl FromIterator<FineMesh> for FineMesh {
     fn from_iter<I: IntoIterator<Item = FineMesh>>(meshes: I) -> FineMesh {
         let mut meshes = meshes.into_iter();
@@ -75,13 +75,13 @@ impl FromIterator<FineMesh> for FineMesh {
 }
 
 impl From<&TriMesh> for FineMesh {
-    /// Without normals.
+    /// A mesh without normals.
     fn from(mesh: &TriMesh) -> FineMesh {
         FineMesh { vertices: mesh.vertices().to_vec(), normals: Vec::new(), faces: mesh.triangles().to_vec() }
     }
 }
 
-/// `v` as a unit vector; `or` when it has no direction.
+/// `v` as a unit vector, or `or` without a direction.
 pub(crate) fn unit_or(v: Vec3, or: Vec3) -> Vec3 {
     v.unit().unwrap_or(or)
 }

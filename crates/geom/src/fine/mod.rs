@@ -1,10 +1,10 @@
-//! Surfaces with many sides, of which solids make their meshes for pictures and files.
+//! Surfaces with many sides: the parts of meshes for pictures and files.
 //!
 //! - `mesh.rs`    triangles with normals
 //! - `boxes.rs`   rounded boxes, tapered or not
 //! - `revolve.rs` cylinders and cones with rounded rims
 //! - `limb.rs`    smooth tubes with a domed end
-//! - `segment.rs` the same, with a collar on the parent's bark
+//! - `segment.rs` smooth tubes with a collar on the parent's bark
 //! - `crease.rs`  normals of any mesh, sharp at large angles
 
 pub(crate) mod boxes;

@@ -14,7 +14,7 @@ struct Stop {
 /// A cylinder with the radii `bottom` at -y and `top` at +y, its rims rounded by `bevel` in `[0, 1]`.
 pub fn rounded(bottom: f64, top: f64, length: f64, bevel: f64) -> FineMesh {
     let half = 0.5 * length;
-    let slant = (bottom - top).atan2(length); // the side's normal looks up this much
+    let slant = (bottom - top).atan2(length); // the angle of the side's normal above the horizon
     let mut stops = Vec::new();
     corner(&mut stops, bottom, half, length, bevel, slant, -1.0);
     corner(&mut stops, top, half, length, bevel, slant, 1.0);
@@ -25,7 +25,7 @@ pub fn rounded(bottom: f64, top: f64, length: f64, bevel: f64) -> FineMesh {
 fn corner(stops: &mut Vec<Stop>, radius: f64, half: f64, length: f64, bevel: f64, slant: f64, sign: f64) {
     let turn = FRAC_PI_2 - sign * slant; // angle between the two normals
     let tangent = (0.5 * turn).tan();
-    // The arc may use up the cap's radius and half of the side, not more.
+    // The arc takes at most the cap's radius and half of the side.
     let side = length / slant.cos();
     let round = (bevel * radius.min(half)).min(radius / tangent).min(0.5 * side / tangent);
     let steps = if round > 0.0 { ((turn / FRAC_PI_2 * ARC as f64).ceil() as usize).max(1) } else { 1 };

@@ -2,7 +2,7 @@
 //!
 //! The collar makes a fork look natural. Its foot is a ring wider than the branch, dropped
 //! onto the parent's cone; over the first part of the branch the rows narrow to the branch and rise from the bark.
-//! At the foot the normals are the parent's own, so that the shading has no seam.
+//! At the foot the normals are those of the parent, so that the shading has no seam.
 
 use super::limb::{between, close, dome, domed, join, row};
 use super::mesh::{FineMesh, unit_or};
@@ -12,15 +12,15 @@ use crate::vector::Vec3;
 
 /// The foot of the collar, in radii of the branch.
 const FOOT: f64 = 1.6;
-/// Widest foot, as a share of the parent's radius: a wider one would reach past its sides.
+/// The widest foot, as a share of the parent's radius: a wider foot would reach past its sides.
 const WIDEST: f64 = 0.96;
-/// The collar rises over this many radii of the branch.
+/// The height of the collar, in radii of the branch.
 const RISE: f64 = 1.5;
 /// Rows of the collar.
 const COLLAR: usize = 8;
 /// Rows from the collar to the end.
 const STEPS: usize = 6;
-/// The foot is sunk to this share of the parent's radius, so that no crack shows.
+/// The distance of the foot from the parent's axis, as a share of its radius: a sunken foot shows no crack.
 const SUNK: f64 = 0.985;
 
 /// The segment over `[start, split, end]`. The split ring is for the coarse mesh: a smooth bend needs none.
@@ -40,7 +40,7 @@ fn collared(start: &Ring, end: &Ring, bark: &Bark, down: Vec3) -> FineMesh {
     let rise = (RISE * start.radius / (end.center - start.center).norm().max(1e-12)).min(0.8);
     let mut below: Vec<u32> = Vec::new();
     for step in 0..=COLLAR + STEPS {
-        // How much of the collar is left: 1 at the foot, 0 beyond the collar.
+        // The share of the collar above this row: 1 at the foot, 0 beyond the collar.
         let left = 1.0 - step.min(COLLAR) as f64 / COLLAR as f64;
         let t = match step.checked_sub(COLLAR) {
             None => rise * (1.0 - left) * (1.0 - left),
@@ -59,7 +59,7 @@ fn collared(start: &Ring, end: &Ring, bark: &Bark, down: Vec3) -> FineMesh {
             (lowered, skin * left + out * (1.0 - left))
         });
         if step == 0 {
-            // What closes the foot faces into the parent, unlike the skin around it.
+            // The lid of the foot faces into the parent, unlike the skin around it.
             let base = row(&mut mesh, &ring, |out| (lowered(out).1, down));
             close(&mut mesh, &base, start.center + down * (start.radius * 0.5), down);
         } else {

@@ -9,7 +9,7 @@ use crate::convex::Convex;
 use crate::polytope::span;
 use crate::vector::Vec3;
 
-/// The sine up to which edges count as parallel: what they could separate, a face normal does.
+/// The sine up to which edges count as parallel: a face normal separates what they could separate.
 pub(super) const PARALLEL: f64 = 1e-6;
 
 /// True when the boxes overlap by no more than `tolerance` along some coordinate.
@@ -19,10 +19,10 @@ pub fn boxes_apart(a: &Aabb, b: &Aabb, tolerance: f64) -> bool {
     apart(0) || apart(1) || apart(2)
 }
 
-/// True when the solids overlap by no more than `tolerance` along the way from one middle to the other; `between` is that way.
+/// True when the solids overlap by no more than `tolerance` along `between`, the way from one middle to the other.
 ///
-/// It is a direction as good as any: no overlap is smaller than the least one over face normals and products of edges. So it
-/// decides nothing that these would not, but most solids that are apart are so along it.
+/// No overlap is smaller than the least overlap over face normals and products of edges. So this test decides nothing that
+/// those would not, but it separates most solids that are apart.
 pub fn middles_apart(a: &Convex<'_>, b: &Convex<'_>, between: Vec3, tolerance: f64) -> bool {
     between.unit().is_some_and(|way| apart(a, b, way, tolerance))
 }
@@ -50,8 +50,8 @@ pub fn overlap(a: &Convex<'_>, b: &Convex<'_>, tolerance: f64) -> bool {
     true
 }
 
-/// True when the solids overlap by no more than `tolerance` along `axis`. The corners of the second are looked at only until some
-/// of them are too far inside, from either end.
+/// True when the solids overlap by no more than `tolerance` along `axis`. The loop over the corners of the second solid ends
+/// as soon as some are too far inside, from either end.
 fn apart(a: &Convex<'_>, b: &Convex<'_>, axis: Vec3, tolerance: f64) -> bool {
     let (low, high) = span(a.corners(), axis);
     let (mut above, mut below) = (true, true);

@@ -8,8 +8,8 @@
 //! sum_i |g_i . n| + sum_j |h_j . n| - |t . n|
 //! ```
 //!
-//! which is what the spans of their corners overlap by, without corners. [`super::axes`] has the same rule for all convex solids.
-//! The two may differ where the overlap is the tolerance to within rounding.
+//! This is the overlap of the spans of their corners, without corners. [`super::axes`] has the rule for all convex solids. The
+//! two may differ if the overlap is the tolerance to within rounding.
 
 use super::axes::PARALLEL;
 use crate::solids::shape::Shape;
@@ -32,9 +32,9 @@ struct Sides {
 
 impl Sides {
     #[inline]
-    fn of(one: &Turned<'_>) -> Sides {
-        let directions = one.rotation.columns;
-        Sides { half: [0, 1, 2].map(|i| directions[i] * one.half[i]), directions }
+    fn of(turned: &Turned<'_>) -> Sides {
+        let directions = turned.rotation.columns;
+        Sides { half: [0, 1, 2].map(|i| directions[i] * turned.half[i]), directions }
     }
 
     /// Half the box's extent along `n`, times the length of `n`.
@@ -44,7 +44,7 @@ impl Sides {
         x.dot(n).abs() + y.dot(n).abs() + z.dot(n).abs()
     }
 
-    /// The same, for a direction at right angles to side `i`.
+    /// Half the box's extent along `n`, at right angles to side `i`, times the length of `n`.
     #[inline]
     fn reach_across(&self, i: usize, n: Vec3) -> f64 {
         self.half[(i + 1) % 3].dot(n).abs() + self.half[(i + 2) % 3].dot(n).abs()
@@ -76,7 +76,7 @@ impl<'a> Turned<'a> {
             for (j, q) in b.directions.iter().enumerate() {
                 let n = p.cross(*q);
                 let overlap = a.reach_across(i, n) + b.reach_across(j, n) - apart.dot(n).abs();
-                // A product of unit vectors is not longer than one, so most need no length.
+                // A product of unit vectors is at most 1 long, so most tests need no length.
                 if overlap > 2.0 * tolerance {
                     continue;
                 }

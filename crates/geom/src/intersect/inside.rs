@@ -1,5 +1,4 @@
-//! Containment: is a point inside a closed surface, and is one solid inside another whose surface it does
-//! not cross?
+//! Containment of a point in a closed surface, and of a solid in another whose surface it does not cross.
 //!
 //! The winding number of a closed mesh around a point is the sum of its triangles' solid angles over 4 pi (van Oosterom
 //! & Strackee 1983): zero outside, and not zero inside, for either orientation of the mesh.
@@ -9,7 +8,7 @@ use crate::solids::shape::Shape;
 use crate::vector::Vec3;
 use std::f64::consts::TAU;
 
-/// How far below a face a sample lies, as a share of the solid's thickness.
+/// The depth of a sample below a face, as a share of the solid's thickness.
 const DEPTH: f64 = 1e-3;
 
 /// True when `point` is inside the closed surface of `shape`.
@@ -23,7 +22,7 @@ fn inside_mesh(mesh: &TriMesh, point: Vec3) -> bool {
     angle.abs() > TAU
 }
 
-/// For each triangle the part that it belongs to: triangles with a vertex in common, by its place, are of one part.
+/// The part of each triangle: triangles that share the place of a vertex are of one part.
 pub fn parts(mesh: &TriMesh) -> Vec<usize> {
     let merged = mesh.merged();
     let mut above: Vec<usize> = (0..merged.len()).collect();
@@ -60,8 +59,8 @@ fn solid_angle([a, b, c]: [Vec3; 3]) -> f64 {
 
 /// True when a point just below a face of one shape lies inside the other.
 ///
-/// Where surfaces do not cross, that is the same as a common inside; equal cross-sections, which have no crossing
-/// either, are seen as well.
+/// If surfaces do not cross, this is equivalent to a common inside. It also detects equal cross-sections, whose surfaces do
+/// not cross either.
 pub fn overlap(a: &Shape, b: &Shape) -> bool {
     holds_part_of(a, b) || holds_part_of(b, a)
 }
@@ -71,7 +70,7 @@ fn holds_part_of(holder: &Shape, part: &Shape) -> bool {
     part.world_mesh().corners().any(|[a, b, c]| {
         let Some(normal) = (b - a).cross(c - a).unit() else { return false };
         let middle = (a + b + c) * (1.0 / 3.0);
-        // The mesh may be inside out: take the side that is inside.
+        // The mesh may be inside out: use the inner side.
         [-depth, depth].into_iter().any(|step| {
             let sample = middle + normal * step;
             let boxed = holder.aabb().meets(&crate::bounds::Aabb { low: sample, high: sample });

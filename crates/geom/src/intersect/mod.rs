@@ -1,12 +1,12 @@
-//! Do two shapes intersect? Touching never counts, so that parts can be built flush.
+//! Intersection of two shapes. Touching never counts, so that parts can be built flush.
 //!
 //! - [`axes`]: convex solids, by separating axes
-//! - [`boxes`]: the same for two boxes, from their middles and sides
+//! - [`boxes`]: two boxes by separating axes, from their middles and sides
 //! - [`triangles`]: surfaces, triangle by triangle
 //! - [`inside`]: containment in a closed mesh
 //!
-//! Two rules. *Solid*: the insides overlap by more than a millionth of the thinner solid; one inside the other
-//! counts. *Surface*: the surfaces cross, as the original tests it; containment and overlap of equal cross-sections
+//! There are two rules. *Solid*: the insides overlap by more than a millionth of the thinner solid; a solid inside of another
+//! counts. *Surface*: the surfaces cross, by the test of the original; containment and overlap of equal cross-sections
 //! are not detected. Use it to compare with the published figures.
 
 pub mod axes;
@@ -21,7 +21,7 @@ use boxes::Turned;
 use serde::Deserialize;
 use triangles::Crossing;
 
-/// What counts as an intersection.
+/// A rule of intersection.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Rule {
@@ -33,10 +33,10 @@ pub enum Rule {
 
 /// Share of the thinner solid's thickness by which solids must overlap.
 pub const SOLID_TOLERANCE: f64 = 1e-6;
-/// Below this share, convex solids are apart under the surface rule without looking at triangles.
+/// The share of overlap below which convex solids are apart under the surface rule, without a test of triangles.
 const APART: f64 = 1e-9;
 
-/// True when any shape of one intersects any shape of the other.
+/// True when a shape of `a` intersects a shape of `b`.
 pub fn primitives_intersect(a: &Primitive, b: &Primitive, rule: Rule) -> bool {
     a.shapes().iter().any(|s| b.shapes().iter().any(|t| intersects(s, t, rule)))
 }

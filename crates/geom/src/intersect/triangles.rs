@@ -1,4 +1,4 @@
-//! Do two surfaces cross? Triangle against triangle, by the intervals in which each cuts the other's plane
+//! Crossing of two surfaces: triangle against triangle, by the intervals in which each cuts the other's plane
 //! (Moeller 1997).
 //!
 //! A vertex close to the other triangle's plane counts as on it. Triangles in one plane never cross, and the
@@ -67,14 +67,14 @@ fn near(shape: &Shape, limits: &Aabb, crossing: Crossing) -> Vec<Triangle> {
 
 impl Triangle {
     fn crosses(&self, other: &Triangle, crossing: Crossing) -> bool {
-        let Some(own) = self.sides_of(&other.corners, crossing) else { return false };
+        let Some(ours) = self.sides_of(&other.corners, crossing) else { return false };
         let Some(theirs) = other.sides_of(&self.corners, crossing) else { return false };
         // The planes' common line; its largest coordinate orders points on it.
         let line = self.normal.cross(other.normal);
         let size = line.to_array().map(f64::abs);
         let axis =
             if size[0] >= size[1] && size[0] >= size[2] { 0 } else { 1 + usize::from(size[2] > size[1]) };
-        let (a, b) = (interval(&self.corners, theirs, axis), interval(&other.corners, own, axis));
+        let (a, b) = (interval(&self.corners, theirs, axis), interval(&other.corners, ours, axis));
         a.1.min(b.1) - a.0.max(b.0) > LINE
     }
 
@@ -97,7 +97,7 @@ impl Triangle {
     }
 }
 
-/// Where a triangle cuts a plane, along coordinate `axis` of the line; `d` are its corners' distances.
+/// The interval in which a triangle cuts a plane, along coordinate `axis` of the line; `d` are its corners' distances.
 fn interval(corners: &Corners, d: [f64; 3], axis: usize) -> (f64, f64) {
     // The corner alone on its side: both of its edges cross the plane.
     let lone = if d[0] * d[1] > 0.0 {

@@ -1,4 +1,4 @@
-//! Where a shape lies between two heights of the plane: the only question that drawings ask of a shape.
+//! The interval of a shape between two heights of the plane. Drawings need nothing else of a shape.
 //!
 //! An outline is one convex piece of a shape seen along z: the hull of two circles, an ellipse, or a polygon. Between
 //! two heights each has one interval of x, in closed form, with square roots and no angles: the same bits everywhere.
@@ -21,7 +21,7 @@ pub enum Outline {
 }
 
 impl Outline {
-    /// Gives the pieces of `shape` to `each`.
+    /// Calls `each` with the pieces of `shape`.
     pub fn of(shape: &Shape, mut each: impl FnMut(Outline)) {
         let placement = shape.placement();
         match shape.solid() {
@@ -76,10 +76,10 @@ impl Outline {
     }
 }
 
-/// From the smallest to the largest.
+/// The interval from the smallest to the largest number.
 type Interval = (f64, f64);
 
-/// The smallest interval around both.
+/// The smallest interval around two intervals.
 #[inline]
 fn join(a: Option<Interval>, b: Option<Interval>) -> Option<Interval> {
     match (a, b) {
@@ -139,7 +139,7 @@ fn polygon(corners: &[Point], low: f64, high: f64) -> Option<Interval> {
         let (under, over) = if p[1] <= q[1] { (p, q) } else { (q, p) };
         if over[1] >= low && under[1] <= high {
             let slope = (over[0] - under[0]) / (over[1] - under[1]);
-            // A point inside of the strip is taken as it is: a level side has no slope.
+            // A point inside of the strip counts itself: a level side has no slope.
             let first = if under[1] >= low { under[0] } else { under[0] + (low - under[1]) * slope };
             let last = if over[1] <= high { over[0] } else { under[0] + (high - under[1]) * slope };
             least = least.min(first).min(last);

@@ -1,6 +1,6 @@
-//! A page: a window of the plane in square or oblong pixels, and which of them a shape covers.
+//! Pages: windows of the plane in square or oblong pixels, and the pixels that a shape covers.
 //!
-//! Two ways to cover, both from [`Outline::across`]:
+//! A shape covers pixels in two ways, both from [`Outline::across`]:
 //!
 //! - *touched*: one bit for each pixel, set where the shape has a point inside of the pixel. Between the heights of a
 //!   row of pixels a convex piece has one interval of x, so a row is a run of bits;
@@ -98,7 +98,7 @@ impl Page {
         (row / GROUP * self.size[0].div_ceil(64) + across) * GROUP + row % GROUP
     }
 
-    /// Appends the touched pixels row by row from the top, each row in words of its own; `word` gives those of
+    /// Appends the touched pixels row by row from the top, each row from a new word on; `word` returns the words of
     /// [`Page::bit`].
     pub(crate) fn image(&self, word: impl Fn(usize) -> u64, out: &mut Vec<u64>) {
         for row in 0..self.size[1] {
@@ -158,7 +158,7 @@ impl Page {
                 }
             }
         });
-        // The words of one piece on a narrow page are in order.
+        // The words of a single piece on a narrow page are in order.
         if pieces == 1 && self.size[0] <= 64 { Cover::in_order(words) } else { Cover::settled(words) }
     }
 
@@ -200,6 +200,6 @@ impl Page {
 #[inline]
 fn cells(least: f64, most: f64, count: usize) -> std::ops::Range<usize> {
     let count = count as f64;
-    // A number that is not one becomes an empty range.
+    // NaN becomes an empty range.
     least.floor().clamp(0.0, count) as usize..most.ceil().clamp(0.0, count) as usize
 }

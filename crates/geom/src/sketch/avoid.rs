@@ -2,39 +2,27 @@
 //!
 //! The obstacle and each shape are voxelised as solids on the obstacle's own grid, conservatively, so that a scene
 //! that is allowed never touches the obstacle and keeps up to two cells away from it (dissertation 5.5.1). The sketch
-//! keeps the number of primitives that share a cell with the obstacle: an integer that is zero exactly when none does, so
-//! no grid of the scene is needed.
+//! keeps the number of primitives that share a cell with the obstacle. It is zero exactly when no primitive does, so no grid of
+//! the scene is needed.
 //!
-//! Whether a shape shares a cell is mostly decided without its cells: it shares none when the obstacle fills no cell of the box
-//! around it, and one when the obstacle fills the cell of a point of it. The shared cells are counted when a person asks.
+//! Most tests of a shape need no cells of it. A shape shares no cell when the obstacle fills no cell of the box around it, and
+//! it shares a cell when the obstacle fills the cell of one of its points. Shared cells are counted only for people.
 
 use super::bag::Bag;
+use super::form::Forbids;
 use super::score::{Sketch, SketchSpec, share};
-use super::settings::{Forbids, Inputs, Named, Settings};
 use crate::bricks::Target;
-use crate::error::GeomError;
 use crate::solids::primitive::Primitive;
 use crate::solids::shape::Shape;
 use crate::vector::Vec3;
 use crate::voxel::Voxels;
-use serde::Deserialize;
 use std::sync::Arc;
 
-/// The settings of `avoid`: it has none. Its obstacle is the target.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AvoidSettings {}
-
-impl Settings for AvoidSettings {
-    const FORBIDS: Option<Forbids> = Some(Forbids {
-        part: "reaches into the obstacle",
-        cure: "start the model beside the obstacle, or make the obstacle smaller",
-    });
-
-    fn spec(self, inputs: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
-        Ok(avoid(inputs.target()?))
-    }
-}
+/// The texts for forbidden scenes.
+pub(super) const FORBIDS: Forbids = Forbids {
+    part: "reaches into the obstacle",
+    cure: "start the model beside the obstacle, or make the obstacle smaller",
+};
 
 /// Forbids scenes that fill a cell of `obstacle`.
 pub fn avoid(obstacle: Arc<Target>) -> Arc<dyn SketchSpec> {
@@ -43,16 +31,16 @@ pub fn avoid(obstacle: Arc<Target>) -> Arc<dyn SketchSpec> {
 
 impl SketchSpec for Avoid {
     fn name(&self) -> &'static str {
-        AvoidSettings::NAME
+        "avoid"
     }
 }
 
-/// How many primitives fill a cell of the obstacle.
+/// The count of primitives that fill a cell of the obstacle.
 #[derive(Debug)]
 pub struct Avoid {
     obstacle: Arc<Target>,
     touching: u64,
-    /// With whether each primitive fills a cell of the obstacle.
+    /// The primitives; a mark is true if a primitive fills a cell of the obstacle.
     bag: Bag<bool>,
 }
 

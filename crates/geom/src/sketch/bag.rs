@@ -1,10 +1,9 @@
-//! The primitives that a sketch holds, so that it can remove them again.
+//! Bags: the primitives of a sketch, for their removal.
 //!
-//! As long as primitives are only added, as particles do, the bag is a list from the newest to the oldest whose tail
-//! copies share: one entry for each primitive, whatever the number of copies. The first removal turns it into a tree of
-//! boxes for good: Metropolis-Hastings also removes primitives. From then on the bag also keeps each primitive's
-//! *mark*: what the sketch computed for this primitive alone and needs to remove it, for example the cells that it
-//! fills. Copies share marks, also those that are computed after the copy.
+//! Particles only add primitives. For them a bag is a list from the newest to the oldest whose tail copies share: one entry
+//! for each primitive, for any number of copies. Metropolis-Hastings also removes primitives. The first removal turns the
+//! bag into a tree of boxes for good. From then on it also keeps the *mark* of each primitive: data of this primitive that
+//! its removal needs, for example the cells that it fills. Copies share marks, also marks that are computed after the copy.
 
 use crate::bounds::Aabb;
 use crate::once::Once;
@@ -25,7 +24,7 @@ enum Held<M> {
     Tree(BoxTree<Marked<M>>),
 }
 
-/// A primitive and its mark, once it is known.
+/// A primitive, and its mark once it is computed.
 #[derive(Clone, Debug)]
 struct Marked<M> {
     primitive: Primitive,
@@ -46,7 +45,7 @@ struct Entry {
 }
 
 impl Drop for Entry {
-    /// One entry after the other: a list of a million would overflow the stack if each dropped the next.
+    /// Drops entries in a loop: a list of a million would overflow the stack if each dropped the next.
     fn drop(&mut self) {
         let mut next = self.older.take();
         while let Some(mut entry) = next.and_then(Arc::into_inner) {
@@ -72,7 +71,7 @@ impl<M: Clone> Bag<M> {
         matches!(self.held, Held::Tree(_))
     }
 
-    /// Adds a primitive; `mark` gives its mark, where marks are kept.
+    /// Adds a primitive; `mark` computes its mark, if the bag keeps marks.
     pub fn add(&mut self, primitive: &Primitive, mark: impl FnOnce() -> M) {
         self.bounds = self.bounds.union(primitive.aabb());
         match &mut self.held {
@@ -87,8 +86,8 @@ impl<M: Clone> Bag<M> {
         }
     }
 
-    /// Removes one primitive equal to this, and gives its mark, which `mark` computes if it is not known; `None` when
-    /// there is no such primitive.
+    /// Removes one primitive equal to this, and returns its mark, which `mark` computes if it is missing; `None` without such a
+    /// primitive.
     pub fn remove(&mut self, primitive: &Primitive, mark: impl FnOnce() -> M) -> Option<M> {
         let mut tree = self.tree();
         let removed = tree.remove(primitive.aabb(), |p| p.primitive == *primitive);
@@ -111,7 +110,7 @@ impl<M: Clone> Bag<M> {
         }
     }
 
-    /// Becomes a tree, as by the first removal: copies then share it.
+    /// Becomes a tree, as at the first removal: copies then share it.
     pub fn expect_removals(&mut self) {
         self.held = Held::Tree(self.tree());
     }
@@ -136,7 +135,7 @@ impl<M: Clone> PartialEq for Bag<M> {
     }
 }
 
-/// Equality of bags: every primitive of one is in the other as often.
+/// Equality of bags: both have each primitive equally often.
 pub(crate) fn same_bag<T: Clone + Boxed>(
     a: &BoxTree<T>,
     b: &BoxTree<T>,
@@ -185,12 +184,12 @@ mod tests {
     }
 
     #[test]
-    fn a_long_list_goes_without_overflowing_the_stack() {
-        let one = cube(0.0);
+    fn the_drop_of_a_long_list_does_not_overflow_the_stack() {
+        let primitive = cube(0.0);
         let mut bag = Bag::default();
-        (0..300_000).for_each(|_| bag.add(&one, || ()));
+        (0..300_000).for_each(|_| bag.add(&primitive, || ()));
         let copy = bag.clone();
         drop(bag);
-        assert_eq!(copy.bounds(), *one.aabb());
+        assert_eq!(copy.bounds(), *primitive.aabb());
     }
 }

@@ -1,4 +1,4 @@
-//! Drawing matching: does what a scene draws on a page look like a picture?
+//! Drawing matching: the likeness of a scene on a page to a picture.
 //!
 //! ```text
 //! log score  = ln N(similarity; 1, sigma) + outside              see `outside`
@@ -9,10 +9,10 @@
 //!
 //! Dissertation 6.5.2. `g` is the magnitude of the picture's Sobel gradient (white is 1, black and everything outside
 //! of the picture 0, no division), so that contours count more than areas. The text has weights of 1 and 0.6;
-//! its code, which made the figures, has these. A pixel of the picture is filled when it is not white; one of the
-//! scene, when a shape has a point inside of it.
+//! its code, which made the figures, has these. A pixel of the picture is filled when it is not white. A pixel of the scene
+//! is filled when a shape has a point inside of it.
 //!
-//! What a pixel adds when it is first covered does not depend on any other:
+//! The gain of a pixel when it is first covered does not depend on other pixels:
 //!
 //! ```text
 //! similarity = (weight of covered filled pixels - covered empty pixels) / weight of all filled pixels
@@ -24,7 +24,6 @@
 use super::bag::Bag;
 use super::outside::Outside;
 use super::score::{Sketch, SketchSpec, check_sigma, log_normal, share};
-use super::settings::{Inputs, Named, Settings};
 use super::tiles::Tiles;
 use crate::bounds::Aabb;
 use crate::error::GeomError;
@@ -33,7 +32,6 @@ use crate::solids::primitive::Primitive;
 use crate::view::Cover;
 use crate::window::flat::{self, Spot};
 use crate::window::{Place, WindowForm};
-use serde::Deserialize;
 use std::sync::Arc;
 
 /// The weight of an empty pixel in integers.
@@ -43,9 +41,9 @@ const ONE: i64 = 1 << 20;
 #[derive(Debug)]
 pub struct Drawing {
     page: Page,
-    /// Which pixels are filled, in the words of [`Page::bit`].
+    /// The filled pixels, in the words of [`Page::bit`].
     filled: Vec<u64>,
-    /// What covering a pixel adds, in the same order, 64 for each word.
+    /// The gain of each pixel when it is covered, in the same order, 64 for each word.
     gains: Vec<i64>,
     /// Weight of all filled pixels.
     all: i64,
@@ -86,7 +84,7 @@ impl Drawing {
         Ok(Drawing { page, filled, gains, all })
     }
 
-    /// Its page.
+    /// The page.
     pub fn page(&self) -> &Page {
         &self.page
     }
@@ -103,7 +101,7 @@ impl Drawing {
         self.filled[word] >> bit & 1 == 1
     }
 
-    /// Which pixels the shapes of a scene touch, row by row.
+    /// The mask of the pixels that the shapes of a scene touch, row by row.
     pub fn mask(&self, scene: &[Primitive]) -> Vec<bool> {
         let mut words = vec![0; self.page.words()];
         for shape in scene.iter().flat_map(Primitive::shapes) {
@@ -119,7 +117,7 @@ impl Drawing {
         (0..columns * rows).map(on).collect()
     }
 
-    /// What the pixels `new` of a word add when they are covered.
+    /// The gain of the pixels `new` of a word when they are covered.
     #[inline]
     fn gain(&self, word: usize, mut new: u64) -> i64 {
         let gains = &self.gains[word * 64..word * 64 + 64];
@@ -132,7 +130,7 @@ impl Drawing {
     }
 }
 
-/// Magnitude of the Sobel gradient, white being 1 and what is outside 0.
+/// Magnitude of the Sobel gradient; white is 1, and the outside of the page is 0.
 fn slope(greys: &[u8], [columns, rows]: [usize; 2], column: usize, row: usize) -> f64 {
     let at = |dx: isize, dy: isize| {
         let (x, y) = (column.wrapping_add_signed(dx), row.wrapping_add_signed(dy));
@@ -142,19 +140,6 @@ fn slope(greys: &[u8], [columns, rows]: [usize; 2], column: usize, row: usize) -
     let line = |dy: isize| at(-1, dy) + 2.0 * at(0, dy) + at(1, dy);
     let (x, y) = (side(1) - side(-1), line(1) - line(-1));
     (x * x + y * y).sqrt()
-}
-
-/// The settings of `match_drawing`: the standard deviation of the similarity.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct DrawingSettings {
-    sigma: f64,
-}
-
-impl Settings for DrawingSettings {
-    fn spec(self, inputs: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
-        match_drawing(inputs.drawing()?, self.sigma)
-    }
 }
 
 /// Scores a scene by how well it draws `drawing`.
@@ -168,7 +153,7 @@ pub fn match_drawing(drawing: Arc<Drawing>, sigma: f64) -> Result<Arc<dyn Sketch
 
 impl SketchSpec for DrawingMatch {
     fn name(&self) -> &'static str {
-        DrawingSettings::NAME
+        "match_drawing"
     }
 
     fn window(&self) -> Option<WindowForm> {
@@ -186,13 +171,13 @@ impl SketchSpec for DrawingMatch {
     }
 }
 
-/// How many shapes touch each pixel.
+/// Counts of the shapes that touch each pixel.
 #[derive(Debug)]
 pub struct DrawingMatch {
     drawing: Arc<Drawing>,
     sigma: f64,
     tiles: Tiles,
-    /// Sum of the gains of the covered pixels, and how many these are.
+    /// Sum of the gains of the covered pixels, and their number.
     gained: i64,
     covered: i64,
     outside: Outside,
@@ -213,7 +198,7 @@ impl DrawingMatch {
         self.gained as f64 / self.drawing.all as f64
     }
 
-    /// What should be drawn.
+    /// The picture to draw.
     pub fn drawing(&self) -> &Drawing {
         &self.drawing
     }
@@ -283,9 +268,9 @@ impl Sketch for DrawingMatch {
         };
         for (shape, cover) in primitive.shapes().iter().zip(&*covers) {
             let (drawing, gained, covered) = (&self.drawing, &mut self.gained, &mut self.covered);
-            self.tiles.remove(cover, |word, gone| {
-                *gained -= drawing.gain(word, gone);
-                *covered -= i64::from(gone.count_ones());
+            self.tiles.remove(cover, |word, bare| {
+                *gained -= drawing.gain(word, bare);
+                *covered -= i64::from(bare.count_ones());
             });
             self.outside.remove(shape, &drawing.page);
         }

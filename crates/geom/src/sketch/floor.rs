@@ -1,35 +1,22 @@
-//! A floor: nothing may reach below it. Touching it is allowed.
+//! Floors: no shape may reach below a height. Touching is allowed.
 //!
 //! The original's setting of object avoidance (a scene with any vertex below the floor scores zero), as a separate
 //! sketch. Touching has the tolerance of intersections: a millionth of a shape's thickness.
 
 use super::bag::Bag;
+use super::form::Forbids;
 use super::score::{Sketch, SketchSpec};
-use super::settings::{Forbids, Inputs, Named, Settings};
 use crate::error::GeomError;
 use crate::intersect::SOLID_TOLERANCE;
 use crate::solids::primitive::Primitive;
 use crate::solids::shape::Shape;
-use serde::Deserialize;
 use std::sync::Arc;
 
-/// The settings of `floor`: its height, scene units along y.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct FloorSettings {
-    y: f64,
-}
-
-impl Settings for FloorSettings {
-    const FORBIDS: Option<Forbids> = Some(Forbids {
-        part: "reaches below the floor",
-        cure: "move the floor below the model's first part, or start the model above it",
-    });
-
-    fn spec(self, _: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
-        floor(self.y)
-    }
-}
+/// The texts for forbidden scenes.
+pub(super) const FORBIDS: Forbids = Forbids {
+    part: "reaches below the floor",
+    cure: "move the floor below the model's first part, or start the model above it",
+};
 
 /// Forbids scenes that reach below `height`, scene units along y.
 ///
@@ -45,11 +32,11 @@ pub fn floor(height: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
 
 impl SketchSpec for Floor {
     fn name(&self) -> &'static str {
-        FloorSettings::NAME
+        "floor"
     }
 }
 
-/// How many shapes reach below the floor.
+/// The count of shapes below the floor.
 #[derive(Clone, Debug)]
 pub struct Floor {
     height: f64,
@@ -77,11 +64,11 @@ impl Sketch for Floor {
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {
-        let there = self.bag.remove(primitive, || ()).is_some();
-        if there {
+        let removed = self.bag.remove(primitive, || ()).is_some();
+        if removed {
             self.below -= self.below(primitive);
         }
-        there
+        removed
     }
 
     fn expect_removals(&mut self) {

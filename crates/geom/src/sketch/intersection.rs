@@ -4,32 +4,18 @@
 //! primitives near a new one, so that the cost does not grow with distant primitives.
 
 use super::bag::same_bag;
+use super::form::Forbids;
 use super::score::{Sketch, SketchSpec};
-use super::settings::{Forbids, Inputs, Named, Settings};
-use crate::error::GeomError;
 use crate::intersect::{Rule, primitives_intersect};
 use crate::solids::primitive::Primitive;
 use crate::tree::BoxTree;
-use serde::Deserialize;
 use std::sync::Arc;
 
-/// The settings of `no_self_intersection`: the rule by which two primitives intersect.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct IntersectionSettings {
-    rule: Rule,
-}
-
-impl Settings for IntersectionSettings {
-    const FORBIDS: Option<Forbids> = Some(Forbids {
-        part: "runs into another part",
-        cure: "put parts that belong together into one `emit`, or leave a gap between them",
-    });
-
-    fn spec(self, _: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
-        Ok(no_self_intersection(self.rule))
-    }
-}
+/// The texts for forbidden scenes.
+pub(super) const FORBIDS: Forbids = Forbids {
+    part: "runs into another part",
+    cure: "put parts that belong together into one `emit`, or leave a gap between them",
+};
 
 /// Forbids scenes in which two primitives intersect by `rule`.
 pub fn no_self_intersection(rule: Rule) -> Arc<dyn SketchSpec> {
@@ -38,11 +24,11 @@ pub fn no_self_intersection(rule: Rule) -> Arc<dyn SketchSpec> {
 
 impl SketchSpec for NoSelfIntersection {
     fn name(&self) -> &'static str {
-        IntersectionSettings::NAME
+        "no_self_intersection"
     }
 }
 
-/// The primitives so far and how many pairs of them intersect.
+/// The primitives so far, and the count of pairs that intersect.
 #[derive(Clone, Debug)]
 pub struct NoSelfIntersection {
     rule: Rule,

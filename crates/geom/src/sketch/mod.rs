@@ -1,9 +1,9 @@
 //! Sketches: summaries of a scene that inference scores, updated shape by shape.
 //!
-//! A sketch keeps sums of integers or order statistics, so its score is the same to the bit for every order of adding,
-//! and adding then removing restores the old sketch.
+//! A sketch keeps sums of integers or order statistics. So its score is the same to the bit for every order of shapes, and
+//! removal of a new shape restores the old sketch.
 //!
-//! - [`score`]: what every sketch is; [`settings`]: what every sketch is as data
+//! - [`score`]: the traits of sketches; [`form`]: their inputs and texts as data
 //! - [`volume`], over [`crate::bricks`]: fill a target's volume
 //! - [`picture`], over [`tiles`]: look like a picture, or cast a shadow like one
 //! - [`drawing`], [`texture`], over [`tiles`] and [`outside`]: draw a picture on a page, or fill the page with edges
@@ -13,20 +13,20 @@
 //! - [`bag`]: the primitives of a sketch
 //! - [`product`]: several sketches of one scene
 //!
-//! [`SketchForm`] is the table of the sketches. To add a sketch, write a file like `floor.rs` (settings that are [`Settings`], the
-//! [`Sketch`] and its [`SketchSpec`]), and a row below.
+//! [`SketchForm`] is the table of the sketches. To add a sketch, write a file like `floor.rs` (a [`Sketch`] that is its own
+//! [`SketchSpec`]), and a row below.
 
 pub mod avoid;
 pub mod bag;
 pub mod drawing;
 pub mod floor;
+pub mod form;
 pub mod intersection;
 pub mod outside;
 pub mod overshoot;
 pub mod picture;
 pub mod product;
 pub mod score;
-pub mod settings;
 pub mod texture;
 pub mod tiles;
 pub mod volume;
@@ -42,35 +42,42 @@ pub use score::{Copied, Sketch, SketchSpec};
 pub use texture::{Texture, TextureMatch, fill_drawing};
 pub use volume::{VolumeMatch, match_volume};
 
+use crate::bounds::Aabb;
 use crate::error::GeomError;
+use crate::intersect::Rule;
+use crate::plane::Page;
+pub use form::{Forbids, Inputs};
 use serde::Deserialize;
-pub use settings::{Forbids, Inputs};
-use settings::{Named, Settings};
 use std::sync::Arc;
 
-/// Declares [`SketchForm`] and [`SKETCHES`]. A row is the name of Python's function, a variant, and the settings by their file.
+/// Declares [`SketchForm`] and [`SKETCHES`]. A row is the name of Python's function, a variant with its settings, and how the
+/// inputs and the settings make a specification. A sketch that forbids scenes names its [`Forbids`] in brackets.
 macro_rules! sketches {
-    ($($name:literal $variant:ident($file:ident::$settings:ident);)*) => {
-        /// A sketch as data: its name and its settings. [`Inputs`] hold the targets.
+    ($($name:literal $variant:ident { $($setting:ident: $kind:ty),* } $([$forbids:path])? |$inputs:pat_param| $spec:expr;)*) => {
+        /// A sketch as data: its name and its settings, which Python's function of that name documents.
         #[derive(Clone, Debug, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        #[expect(missing_docs, reason = "the settings are described where people read them: in Python's functions")]
         pub enum SketchForm {
-            $(#[doc = concat!("`", $name, "`")] #[serde(rename = $name)] $variant($file::$settings),)*
+            $(#[serde(rename = $name)] $variant { $($setting: $kind),* },)*
         }
 
-        $(impl Named for $file::$settings {
-            const NAME: &'static str = $name;
-        })*
-
-        /// The names of all sketches, and the texts of those that forbid scenes, in the order of the table.
-        pub const SKETCHES: &[(&str, Option<Forbids>)] = &[$(($name, <$file::$settings as Settings>::FORBIDS)),*];
+        /// The names of all sketches in the order of the table, with the texts of those that forbid scenes.
+        pub const SKETCHES: &[(&str, Option<Forbids>)] =
+            &[$(($name, [$(Some($forbids),)? None][0]),)*];
 
         impl SketchForm {
-            /// The specification with these settings.
+            /// The specification.
             ///
             /// # Errors
             /// `bad-setting` for a value out of its range, and for an input that is missing.
             pub fn spec(self, inputs: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
-                match self { $(SketchForm::$variant(form) => form.spec(inputs),)* }
+                match self {
+                    $(SketchForm::$variant { $($setting),* } => {
+                        let $inputs = inputs;
+                        $spec
+                    })*
+                }
             }
         }
     };
@@ -78,13 +85,18 @@ macro_rules! sketches {
 
 // The order in which Python evaluates sketches that are asked for by name: those that may forbid a scene come first.
 sketches! {
-    "no_self_intersection" NoSelfIntersection(intersection::IntersectionSettings);
-    "match_drawing" MatchDrawing(drawing::DrawingSettings);
-    "fill_drawing" FillDrawing(texture::TextureSettings);
-    "floor" Floor(floor::FloorSettings);
-    "avoid" Avoid(avoid::AvoidSettings);
-    "match_image" MatchImage(picture::ImageSettings);
-    "match_shadow" MatchShadow(picture::ShadowSettings);
-    "overshoot" Overshoot(overshoot::OvershootSettings);
-    "match_volume" MatchVolume(volume::VolumeSettings);
+    "no_self_intersection" NoSelfIntersection { rule: Rule } [intersection::FORBIDS] |_| Ok(no_self_intersection(rule));
+    "match_drawing" MatchDrawing { sigma: f64 } |inputs| match_drawing(inputs.drawing()?, sigma);
+    "fill_drawing" FillDrawing { window: [[f64; 2]; 2], size: [usize; 2], share: f64, sigma: f64 } |_| {
+        fill_drawing(Texture { page: Page::new(window[0], window[1], size)?, share, sigma })
+    };
+    "floor" Floor { y: f64 } [floor::FORBIDS] |_| floor(y);
+    "avoid" Avoid {} [avoid::FORBIDS] |inputs| Ok(avoid(inputs.target()?));
+    "match_image" MatchImage { sigma: f64 } |inputs| match_image(inputs.picture()?, sigma);
+    "match_shadow" MatchShadow { sigma: f64 } |inputs| match_shadow(inputs.picture()?, sigma);
+    "overshoot" Overshoot { domain: [[f64; 3]; 2], sigma: f64 } |_| {
+        let [low, high] = domain.map(Into::into);
+        no_overshoot(Aabb { low, high }, sigma)
+    };
+    "match_volume" MatchVolume { sigma: f64 } |inputs| match_volume(inputs.target()?, sigma);
 }

@@ -1,22 +1,22 @@
-//! How far a drawing reaches out of its window.
+//! The reach of a drawing out of its window.
 //!
 //! ```text
 //! log score = -(ex^2 + ey^2) / 0.001^2
 //! ex, ey    = lengths outside of the window on both sides / its extent, along x and y
 //! ```
 //!
-//! Dissertation 6.5.3, where it keeps a circuit inside of its die; the original's code has it in the shape program
-//! too. What counts of a stroke is its axis and not its width, of any other shape its box. differs: the box of an
-//! ellipse is that of the ellipse (the original turns a corner of it twice).
+//! Dissertation 6.5.3: it keeps a circuit inside of its die; the original's code has it in the shape program too. A stroke
+//! counts by its axis without its width, any other shape by its box. differs: the box of an ellipse is exact (the original
+//! turns one of its corners twice).
 //!
-//! Nearly all shapes are inside, so only those that are not are kept, sorted: equal drawings are equal data.
+//! Nearly all shapes are inside. So only the shapes outside are kept, sorted: equal drawings are equal data.
 
 use crate::bounds::Aabb;
 use crate::plane::Page;
 use crate::solids::shape::Shape;
 use crate::solids::{Solid, Stroke};
 
-/// The share of the window that costs one nat.
+/// The share of the window that lowers the log score by 1.
 const SCALE: f64 = 0.001;
 
 /// Lengths outside on the left, the right, below and above, of the shapes that are outside.

@@ -1,37 +1,19 @@
-//! Overshoot: how far the scene reaches beyond a box.
+//! Overshoot: the reach of a scene beyond a box.
 //!
 //! ```text
 //! log score = ln N(overshoot; 0, sigma)
 //! overshoot = sum over six sides of (length outside the box / extent of the box along that axis)
 //! ```
 //!
-//! Dissertation 5.5.1, where it is one of volume matching's two terms; alone it is used with pictures and shadows,
-//! which ignore shapes outside of them. differs: a sum over the sides, as in the original's code; its text has
-//! maximum.
+//! Dissertation 5.5.1: it is one of the two terms of volume matching. Alone it goes with pictures and shadows, which ignore
+//! shapes outside of them. differs: a sum over the sides, as in the original's code; its text has the maximum.
 
 use super::bag::Bag;
 use super::score::{Sketch, SketchSpec, check_sigma, log_normal};
-use super::settings::{Inputs, Named, Settings};
 use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::solids::primitive::Primitive;
-use serde::Deserialize;
 use std::sync::Arc;
-
-/// The settings of `overshoot`: the low and the high corner of the box, and the standard deviation.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct OvershootSettings {
-    domain: [[f64; 3]; 2],
-    sigma: f64,
-}
-
-impl Settings for OvershootSettings {
-    fn spec(self, _: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
-        let [low, high] = self.domain.map(Into::into);
-        no_overshoot(Aabb { low, high }, self.sigma)
-    }
-}
 
 /// Scores a scene by how far it reaches out of `domain`.
 ///
@@ -50,7 +32,7 @@ pub fn no_overshoot(domain: Aabb, sigma: f64) -> Result<Arc<dyn SketchSpec>, Geo
 
 impl SketchSpec for Overshoot {
     fn name(&self) -> &'static str {
-        OvershootSettings::NAME
+        "overshoot"
     }
 }
 

@@ -1,4 +1,4 @@
-//! Picture matching: does the scene, or the shadow that it casts, look like a picture?
+//! Picture matching: the likeness of a scene, or of the shadow that it casts, to a picture.
 //!
 //! ```text
 //! log score  = ln N(similarity; 1, sigma)                                     with its normaliser
@@ -16,7 +16,6 @@
 
 use super::bag::Bag;
 use super::score::{Sketch, SketchSpec, check_sigma, log_normal, share};
-use super::settings::{Inputs, Named, Settings};
 use super::tiles::Tiles;
 use crate::error::GeomError;
 use crate::once::Once;
@@ -26,7 +25,6 @@ use crate::view::{Cover, Rays};
 use crate::window::bits::Bits;
 use crate::window::plate::Plate;
 use crate::window::{Place, WindowForm};
-use serde::Deserialize;
 use std::ops::{Add, AddAssign, Sub, SubAssign};
 use std::sync::{Arc, OnceLock};
 
@@ -65,16 +63,16 @@ impl SubAssign for Amount {
     }
 }
 
-/// Which pixels should be on, and their weights.
+/// The pixels that should be on, and their weights.
 #[derive(Clone, Debug)]
 pub struct TargetPicture {
     /// Columns and rows.
     pub size: [usize; 2],
-    /// Which pixels should be on, row by row from the top.
+    /// The mask of the pixels that should be on, row by row from the top.
     pub on: Vec<bool>,
     /// Greys of the weight image, row by row; all pixels weigh the same without one.
     pub greys: Option<Vec<u8>>,
-    /// How much more a white pixel of the weight image weighs than a black one, which weighs one.
+    /// The additional weight of a white pixel of the weight image; a black pixel weighs 1.
     pub multiplier: f64,
 }
 
@@ -87,11 +85,11 @@ pub struct Picture {
     on: Vec<u64>,
     greys: Option<Vec<[u64; 8]>>,
     multiplier: f64,
-    /// Of all pixels, with and without a ray.
+    /// The amount of all pixels, with and without a ray.
     all: Amount,
-    /// Of those that should be on.
-    wanted: Amount,
-    /// What windows look at, once one asks.
+    /// The amount of the pixels that should be on.
+    target: Amount,
+    /// The page for windows, computed at the first use.
     plate: OnceLock<Plate>,
 }
 
@@ -133,13 +131,13 @@ impl Picture {
             (0..on.len()).map(|word| std::array::from_fn(|k| planes[k][word])).collect()
         });
         let grey = |pixel: usize| target.greys.as_ref().map_or(0, |greys| i64::from(greys[pixel]));
-        let total = |which: &dyn Fn(usize) -> bool| {
-            let pixels = (0..count).filter(|p| which(*p));
+        let total = |counts: &dyn Fn(usize) -> bool| {
+            let pixels = (0..count).filter(|p| counts(*p));
             pixels.fold(Amount::default(), |sum, p| sum + Amount { pixels: 1, grey: grey(p) })
         };
-        let (all, wanted) = (total(&|_| true), total(&|pixel| target.on[pixel]));
+        let (all, on_target) = (total(&|_| true), total(&|pixel| target.on[pixel]));
         let (multiplier, plate) = (target.multiplier, OnceLock::new());
-        Ok(Picture { size, rays, on, greys, multiplier, all, wanted, plate })
+        Ok(Picture { size, rays, on, greys, multiplier, all, target: on_target, plate })
     }
 
     /// Columns and rows.
@@ -154,10 +152,10 @@ impl Picture {
 
     /// Share of the weight that should be on.
     pub fn on_fraction(&self) -> f64 {
-        self.weight(self.wanted) / self.weight(self.all)
+        self.weight(self.target) / self.weight(self.all)
     }
 
-    /// Which pixels of a scene are on, row by row.
+    /// The mask of the pixels of a scene that are on, row by row.
     pub fn mask(&self, scene: &[Primitive]) -> Vec<bool> {
         let mut mask = vec![false; self.size[0] * self.size[1]];
         for shape in scene.iter().flat_map(Primitive::shapes) {
@@ -184,39 +182,13 @@ impl Picture {
     }
 }
 
-/// The settings of `match_image`: the standard deviation of the similarity.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ImageSettings {
-    sigma: f64,
-}
-
-impl Settings for ImageSettings {
-    fn spec(self, inputs: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
-        match_image(inputs.picture()?, self.sigma)
-    }
-}
-
-/// The settings of `match_shadow`: the standard deviation of the similarity.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ShadowSettings {
-    sigma: f64,
-}
-
-impl Settings for ShadowSettings {
-    fn spec(self, inputs: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
-        match_shadow(inputs.picture()?, self.sigma)
-    }
-}
-
 /// Scores a scene by how well its silhouette is `picture`, seen by the camera of the picture's rays.
 ///
 /// # Errors
 /// `bad-setting` when it is not positive.
 pub fn match_image(picture: Arc<Picture>, sigma: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
     check_sigma(sigma)?;
-    Ok(Arc::new(PictureMatch::new(ImageSettings::NAME, picture, sigma)))
+    Ok(Arc::new(PictureMatch::new("match_image", picture, sigma)))
 }
 
 /// Scores a scene by how well its shadow is `picture`, whose rays go from a receiver to a light.
@@ -225,7 +197,7 @@ pub fn match_image(picture: Arc<Picture>, sigma: f64) -> Result<Arc<dyn SketchSp
 /// `bad-setting` when it is not positive.
 pub fn match_shadow(picture: Arc<Picture>, sigma: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
     check_sigma(sigma)?;
-    Ok(Arc::new(PictureMatch::new(ShadowSettings::NAME, picture, sigma)))
+    Ok(Arc::new(PictureMatch::new("match_shadow", picture, sigma)))
 }
 
 impl SketchSpec for PictureMatch {
@@ -234,24 +206,24 @@ impl SketchSpec for PictureMatch {
     }
 
     fn window(&self) -> Option<WindowForm> {
-        let seen = !self.picture.rays.is_empty();
-        seen.then(|| WindowForm::flat(self.picture.plate().side()))
+        let is_visible = !self.picture.rays.is_empty();
+        is_visible.then(|| WindowForm::flat(self.picture.plate().side()))
     }
 }
 
-/// How many shapes each pixel's ray meets.
+/// Counts of the shapes that the ray of each pixel meets.
 #[derive(Debug)]
 pub struct PictureMatch {
     name: &'static str,
     picture: Arc<Picture>,
     sigma: f64,
     tiles: Tiles,
-    /// Pixels that are on, and those of them that should be.
+    /// Pixels that are on, and the pixels among them that should be.
     on: Amount,
     right: Amount,
     /// Pixels of the plate that are on, once windows are expected.
     shown: Option<Bits>,
-    /// With the rays that meet each primitive, shape by shape.
+    /// The primitives; a mark has the rays that meet a primitive, shape by shape.
     bag: Bag<Arc<[Cover]>>,
 }
 
@@ -270,8 +242,8 @@ impl PictureMatch {
 
     /// Pixels that are equal in scene and picture.
     pub fn equal(&self) -> Amount {
-        // On and not wanted, or wanted and not on, is a mismatch.
-        self.picture.all - (self.on - self.right) - (self.picture.wanted - self.right)
+        // A pixel that is on and should be off, or off and should be on, is a mismatch.
+        self.picture.all - (self.on - self.right) - (self.picture.target - self.right)
     }
 
     /// Share of the weight of the pixels that are equal in scene and picture.
@@ -294,7 +266,7 @@ impl PictureMatch {
         bits
     }
 
-    /// Which pixels are on, row by row.
+    /// The mask of the pixels that are on, row by row.
     pub fn mask(&self) -> Vec<bool> {
         let [columns, rows] = self.picture.size;
         let mut mask = vec![false; columns * rows];
@@ -369,12 +341,12 @@ impl Sketch for PictureMatch {
         for cover in &*covers {
             let (picture, on, right) = (&self.picture, &mut self.on, &mut self.right);
             let shown = &mut self.shown;
-            self.tiles.remove(cover, |word, gone| {
+            self.tiles.remove(cover, |word, bare| {
                 if let Some(shown) = shown {
-                    picture.plate().flip(shown, word, gone);
+                    picture.plate().flip(shown, word, bare);
                 }
-                *on -= picture.amount(word, gone);
-                *right -= picture.amount(word, gone & picture.on[word]);
+                *on -= picture.amount(word, bare);
+                *right -= picture.amount(word, bare & picture.on[word]);
             });
         }
         true

@@ -1,8 +1,8 @@
-//! Several sketches of one scene: scores multiply, so their logs add.
+//! Products of sketches of one scene: scores multiply, so their logs add.
 //!
-//! Sketches are updated in order: when one forbids the scene, those after it are not updated and keep a list of
-//! primitives that they have not seen. They catch up as soon as the ones before allow the scene again, so the state
-//! depends on the scene only, not on its history.
+//! Sketches are updated in order. When a sketch forbids the scene, the sketches after it keep a list of waiting primitives.
+//! They catch up as soon as the sketches before allow the scene again. So the state depends on the scene only, not on its
+//! history.
 
 use super::score::{Sketch, SketchSpec};
 use crate::solids::primitive::Primitive;
@@ -46,7 +46,7 @@ impl Member {
         self.log_score == f64::NEG_INFINITY
     }
 
-    /// Adds the waiting primitives to the sketch, and one more.
+    /// Adds the waiting primitives to the sketch, and another.
     fn see(&mut self, last: Option<&Primitive>) {
         for primitive in self.waiting.drain(..) {
             self.sketch.add(&primitive);
@@ -103,7 +103,7 @@ impl Sketches {
         forbidden
     }
 
-    /// Removes a primitive from the scene; false, and nothing changed, when the scene has none like it.
+    /// Removes a primitive from the scene. Returns false without a change if the scene has no equal primitive.
     pub fn remove(&mut self, primitive: &Primitive) -> bool {
         for (i, member) in self.members.iter_mut().enumerate() {
             if let Some(at) = member.waiting.iter().position(|p| p == primitive) {
@@ -118,39 +118,39 @@ impl Sketches {
         true
     }
 
-    /// Removes primitives from the scene and adds others, and then scores it once. False when the scene did not
-    /// have one of `gone`: the sketches cannot be used afterwards.
+    /// Removes primitives from the scene, adds others, and then scores it once. Returns false if the scene lacked one of
+    /// `removed`: the sketches are not usable afterwards.
     pub fn exchange<'a>(
         &mut self,
-        gone: impl Iterator<Item = &'a Primitive> + Clone,
-        come: impl Iterator<Item = &'a Primitive> + Clone,
+        removed: impl Iterator<Item = &'a Primitive> + Clone,
+        added: impl Iterator<Item = &'a Primitive> + Clone,
     ) -> bool {
         for member in &mut self.members {
-            for primitive in gone.clone() {
+            for primitive in removed.clone() {
                 if let Some(at) = member.waiting.iter().position(|p| p == primitive) {
                     member.waiting.swap_remove(at);
                 } else if !member.sketch.remove(primitive) {
                     return false;
                 }
             }
-            member.waiting.extend(come.clone().cloned());
+            member.waiting.extend(added.clone().cloned());
         }
         self.catch_up();
         true
     }
 
-    /// From now on primitives also go: what taking them out needs is kept, so that copies share it.
+    /// Prepares for removals: the data that they need is kept from now on, so that copies share it.
     pub fn expect_removals(&mut self) {
         self.members.iter_mut().for_each(|member| member.sketch.expect_removals());
     }
 
-    /// From now on guides look at the scene: what windows need is kept, so that copies share it.
+    /// Prepares for windows: the data that they need is kept from now on, so that copies share it.
     pub fn expect_windows(&mut self) {
         self.members.iter_mut().for_each(|member| member.sketch.expect_windows());
     }
 
-    /// Appends what each form shows of its sketch, given by number. A sketch after the first that forbids the scene shows
-    /// only what it has seen: look at scenes that are allowed.
+    /// Appends the view of each form from its sketch, by number. A sketch after the first that forbids the scene lacks waiting
+    /// primitives: look at allowed scenes only.
     pub fn look<'a>(
         &self,
         forms: impl IntoIterator<Item = (usize, &'a WindowForm)>,
@@ -172,7 +172,7 @@ impl Sketches {
         self.members.iter().find(|m| m.is_forbidden()).map(|m| m.name)
     }
 
-    /// Sum of the log scores, nats; of those up to the first that forbids the scene.
+    /// Sum of the log scores up to the first sketch that forbids the scene, nats.
     pub fn total(&self) -> Total {
         let mut sum = Total::default();
         for member in &self.members {
@@ -189,12 +189,12 @@ impl Sketches {
         self.total().value()
     }
 
-    /// A copy that shares what neither changes.
+    /// A copy that shares unchanged data.
     pub fn fork(&self) -> Sketches {
         Sketches { members: self.members.iter().map(Member::fork).collect() }
     }
 
-    /// Becomes a copy of `other`, in place where both are sketches of the same kinds.
+    /// Becomes a copy of `other`, in place if both have sketches of the same kinds.
     pub fn become_copy(&mut self, other: &Sketches) {
         let same = self.members.len() == other.members.len();
         if !same || !self.members.iter_mut().zip(&other.members).all(|(to, from)| to.become_copy(from)) {
@@ -207,7 +207,7 @@ impl Sketches {
         self.iter().flat_map(|(_, sketch)| sketch.measures()).collect()
     }
 
-    /// Share of cells that are equal in the scene and its target, where a sketch has one.
+    /// Share of cells that are equal in the scene and its target, if a sketch has a target.
     pub fn similarity(&self) -> Option<f64> {
         self.measures().into_iter().find(|(name, _)| *name == "similarity").map(|(_, share)| share)
     }

@@ -1,4 +1,4 @@
-//! What every sketch is: a running score of a bag of primitives.
+//! The traits of sketches: running scores of a bag of primitives.
 
 use crate::bounds::Aabb;
 use crate::error::GeomError;
@@ -18,14 +18,13 @@ pub trait Sketch: Copied + Any + Send + Sync {
     fn expect_removals(&mut self) {}
     /// Prepares for windows: the data that they need is kept from now on, so that copies share it.
     fn expect_windows(&mut self) {}
-    /// Appends what `form`, one that fits its target, shows from `place`: exactly `form.values()` numbers. The answer is
-    /// the same with and without [`Sketch::expect_windows`]; with it, it is fast. A sketch that shows nothing appends
-    /// zeros.
+    /// Appends the view of `form`, which fits its target, from `place`: exactly `form.values()` numbers. The numbers are the
+    /// same with and without [`Sketch::expect_windows`], which makes views fast. A sketch without a view appends zeros.
     fn look(&self, form: &WindowForm, _place: &Place, out: &mut Vec<f32>) {
         out.resize(out.len() + form.values(), 0.0);
     }
-    /// Appends the pixels that the scene touches on its target's page, as [`SketchSpec::image`] has them; nothing where
-    /// that has none.
+    /// Appends the pixels that the scene touches on its target's page, in the order of [`SketchSpec::image`], or nothing
+    /// without a page.
     fn image(&self, _out: &mut Vec<u64>) {}
     /// Log of the score of the bag, nats; negative infinity when it is forbidden.
     fn log_score(&self) -> f64;
@@ -37,16 +36,16 @@ pub trait Sketch: Copied + Any + Send + Sync {
 pub trait SketchSpec: Copied + Send + Sync {
     /// Its name for people, for example `no_self_intersection`.
     fn name(&self) -> &'static str;
-    /// The window that fits its target; `None` when it shows nothing.
+    /// The window that fits its target; `None` without a view.
     fn window(&self) -> Option<WindowForm> {
         None
     }
-    /// The page that scenes are drawn on, and the pixels that the target fills there: one bit each, row by row from the
-    /// top, each row in words of its own. `None` where nothing is drawn on a page.
+    /// The page of a drawing, and the pixels that the target fills there: one bit each, row by row from the top, each row from
+    /// a new word on. `None` without a page.
     fn image(&self) -> Option<(Page, Vec<u64>)> {
         None
     }
-    /// The box around what its target covers, world space; `None` when it has no target in the world.
+    /// The box around its target, world space; `None` without a target in the world.
     fn domain(&self) -> Option<Aabb> {
         None
     }
@@ -56,12 +55,12 @@ pub trait SketchSpec: Copied + Send + Sync {
     }
 }
 
-/// Copies of a sketch whose kind is not known: every sketch that can be cloned has them.
+/// Copies of a sketch of any kind, for every sketch that is `Clone`.
 pub trait Copied {
     /// A copy that shares all unchanged data.
     fn fork(&self) -> Box<dyn Sketch>;
-    /// Becomes a copy of `other`, in place and sharing as `fork` does; false, and nothing changed, when that is another
-    /// kind of sketch.
+    /// Becomes a copy of `other` in place, which shares data as `fork` does. Returns false without a change if `other` is
+    /// another kind of sketch.
     fn become_copy(&mut self, other: &dyn Sketch) -> bool;
 }
 
@@ -76,8 +75,8 @@ impl<T: Sketch + Clone> Copied for T {
     }
 }
 
-/// Makes both the same. A reference that all sketches of a search share is not written again: its count would make
-/// every processor that reads it wait.
+/// Makes `to` a reference like `from`. A reference that all sketches of a search share is not written again, because a
+/// change of its count would make every processor that reads it wait.
 #[inline]
 pub(crate) fn share<T>(to: &mut Arc<T>, from: &Arc<T>) {
     if !Arc::ptr_eq(to, from) {

@@ -1,4 +1,4 @@
-//! Texture: does a drawing fill its window to a certain share, with lively edges?
+//! Textures: the fill of a window to a certain share, with lively edges.
 //!
 //! ```text
 //! log score = ln N(score; 1, sigma) + outside                    see `outside`
@@ -16,13 +16,12 @@
 //! The sketch keeps counts for each sample, the number of touched pixels and the sum of all magnitudes in steps of
 //! 2^-26: integers, the same in any order.
 //!
-//! There is no target, so a window shows other shares of its cells: of the pixels that are touched, and of what lies
-//! outside of the page, both 0 to 1.
+//! A texture has no target. So a window shows other shares of its cells: the share of touched pixels, and the share outside
+//! of the page, both 0 to 1.
 
 use super::bag::Bag;
 use super::outside::Outside;
 use super::score::{Sketch, SketchSpec, check_sigma, log_normal, share};
-use super::settings::{Inputs, Named, Settings};
 use super::tiles::Tiles;
 use crate::bounds::Aabb;
 use crate::error::GeomError;
@@ -32,7 +31,6 @@ use crate::view::Cover;
 use crate::window::bits::Bits;
 use crate::window::flat::{self, Spot};
 use crate::window::{Place, WindowForm};
-use serde::Deserialize;
 use std::sync::Arc;
 
 /// Samples of a pixel, and its value where nothing is drawn.
@@ -40,7 +38,7 @@ const WHITE: i32 = 64;
 /// Steps of a magnitude in units of samples.
 const STEPS: f64 = (1 << 20) as f64;
 
-/// What a drawing should be like, on its page.
+/// The texture that a drawing should have, on its page.
 #[derive(Clone, Debug)]
 pub struct Texture {
     /// The window and its pixels.
@@ -49,24 +47,6 @@ pub struct Texture {
     pub share: f64,
     /// Standard deviation of the score.
     pub sigma: f64,
-}
-
-/// The settings of `fill_drawing`: those of a [`Texture`], with the corners and the size of its page.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TextureSettings {
-    window: [[f64; 2]; 2],
-    size: [usize; 2],
-    share: f64,
-    sigma: f64,
-}
-
-impl Settings for TextureSettings {
-    fn spec(self, _: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
-        let [low, high] = self.window;
-        let page = Page::new(low, high, self.size)?;
-        fill_drawing(Texture { page, share: self.share, sigma: self.sigma })
-    }
 }
 
 /// Scores a scene by how it fills a window.
@@ -84,7 +64,7 @@ pub fn fill_drawing(texture: Texture) -> Result<Arc<dyn SketchSpec>, GeomError> 
 
 impl SketchSpec for TextureMatch {
     fn name(&self) -> &'static str {
-        TextureSettings::NAME
+        "fill_drawing"
     }
 
     fn window(&self) -> Option<WindowForm> {
@@ -104,7 +84,7 @@ impl SketchSpec for TextureMatch {
     }
 }
 
-/// How many shapes hold each sample point.
+/// Counts of the shapes that cover each sample point.
 #[derive(Debug)]
 pub struct TextureMatch {
     texture: Arc<Texture>,
@@ -113,7 +93,7 @@ pub struct TextureMatch {
     /// Sum of the magnitudes, in steps.
     edges: i64,
     outside: Outside,
-    /// Which pixels are touched, in the words of [`Page::bit`], once windows are expected.
+    /// The touched pixels, in the words of [`Page::bit`], once windows are expected.
     shown: Option<Bits>,
     /// With the samples that each primitive holds, shape by shape.
     bag: Bag<Arc<[Cover]>>,
@@ -156,7 +136,7 @@ impl TextureMatch {
         self.tiles.any(word)
     }
 
-    /// What it is scored by.
+    /// The score before its normal density.
     pub fn texture(&self) -> &Texture {
         &self.texture
     }
@@ -175,8 +155,8 @@ impl TextureMatch {
         let mut values = vec![0; wide * (rows.len() + 2)];
         for y in rows.start.max(1) - 1..(rows.end + 1).min(height) {
             for x in columns.start.max(1) - 1..(columns.end + 1).min(width) {
-                let held = self.tiles.any(page.sampled_word(x, y)).count_ones() as i32;
-                values[(y + 1 - rows.start) * wide + x + 1 - columns.start] = WHITE - held;
+                let covered = self.tiles.any(page.sampled_word(x, y)).count_ones() as i32;
+                values[(y + 1 - rows.start) * wide + x + 1 - columns.start] = WHITE - covered;
             }
         }
         let mut sum = 0;
@@ -221,7 +201,7 @@ impl TextureMatch {
         }
     }
 
-    /// Which pixels are touched.
+    /// The touched pixels.
     fn touched_pixels(&self) -> Bits {
         let page = &self.texture.page;
         let mut bits = Bits::new(page.words());
@@ -294,16 +274,16 @@ impl PartialEq for TextureMatch {
 impl Sketch for TextureMatch {
     fn add(&mut self, primitive: &Primitive) {
         let covers = covers(primitive, &self.texture.page);
-        self.change(primitive, |own| {
+        self.change(primitive, |sketch| {
             for (shape, cover) in primitive.shapes().iter().zip(&*covers) {
                 for (word, _) in cover.words() {
-                    if own.tiles.any(*word as usize) == 0 {
-                        own.touched += 1;
-                        own.flip(*word as usize);
+                    if sketch.tiles.any(*word as usize) == 0 {
+                        sketch.touched += 1;
+                        sketch.flip(*word as usize);
                     }
                 }
-                own.tiles.add(cover, |_, _| {});
-                own.outside.add(shape, &own.texture.page);
+                sketch.tiles.add(cover, |_, _| {});
+                sketch.outside.add(shape, &sketch.texture.page);
             }
         });
         self.bag.add(primitive, || covers);
@@ -313,16 +293,16 @@ impl Sketch for TextureMatch {
         let Some(covers) = self.bag.remove(primitive, || covers(primitive, &self.texture.page)) else {
             return false;
         };
-        self.change(primitive, |own| {
+        self.change(primitive, |sketch| {
             for (shape, cover) in primitive.shapes().iter().zip(&*covers) {
-                own.tiles.remove(cover, |_, _| {});
+                sketch.tiles.remove(cover, |_, _| {});
                 for (word, _) in cover.words() {
-                    if own.tiles.any(*word as usize) == 0 {
-                        own.touched -= 1;
-                        own.flip(*word as usize);
+                    if sketch.tiles.any(*word as usize) == 0 {
+                        sketch.touched -= 1;
+                        sketch.flip(*word as usize);
                     }
                 }
-                own.outside.remove(shape, &own.texture.page);
+                sketch.outside.remove(shape, &sketch.texture.page);
             }
         });
         true

@@ -1,13 +1,13 @@
-//! How many shapes each ray of a picture meets, in tiles that copies share.
+//! Counts of the shapes that each ray of a picture meets, in tiles that copies share.
 //!
-//! A tile is 64 bundles of 64 rays that are near each other. Changing one copies that tile only, and only when
-//! it is shared; a tile without counts is not stored.
+//! A tile is 64 bundles of 64 rays that are near each other. A change copies a tile only if it is shared. A tile without
+//! counts is not stored.
 
 use crate::bricks::brick::Brick;
 use crate::view::Cover;
 use std::sync::Arc;
 
-/// Words of one tile.
+/// The number of words of a tile.
 const TILE: usize = 64;
 
 /// A count for every ray. Cloning shares all tiles.
@@ -15,18 +15,18 @@ const TILE: usize = 64;
 pub struct Tiles(Arc<Vec<Option<Arc<Brick>>>>);
 
 impl Tiles {
-    /// All zero, for as many words of rays.
+    /// Zeros for a number of words of rays.
     pub fn new(words: usize) -> Tiles {
         Tiles(Arc::new(vec![None; words.div_ceil(TILE)]))
     }
 
-    /// Adds one to every ray of `cover`; `each` gets the rays of each word that met nothing before.
+    /// Adds one to the count of every ray of `cover`; `each` gets the rays of each word that met nothing before.
     pub fn add(&mut self, cover: &Cover, mut each: impl FnMut(usize, u64)) {
         self.visit(cover, |brick, word, rays| each(word, brick.raise(word % TILE, &[rays])[0]));
     }
 
-    /// Subtracts one from every ray of `cover`, all of which must have one; `each` gets the rays of each word that
-    /// meet nothing now.
+    /// Subtracts one from the count of every ray of `cover`, which must be above 0; `each` gets the rays of each word that meet
+    /// nothing now.
     pub fn remove(&mut self, cover: &Cover, mut each: impl FnMut(usize, u64)) {
         self.visit(cover, |brick, word, rays| each(word, brick.lower(word % TILE, &[rays])[0]));
         let tiles = Arc::make_mut(&mut self.0);
@@ -56,7 +56,7 @@ impl Tiles {
         self.0[word / TILE].as_ref().map_or(0, |brick| brick.any(word % TILE))
     }
 
-    /// How many shapes a ray meets.
+    /// The count of shapes that a ray meets.
     pub fn get(&self, ray: usize) -> u32 {
         self.0[ray / 64 / TILE].as_ref().map_or(0, |brick| brick.get(ray / 64 % TILE, ray % 64))
     }

@@ -1,4 +1,4 @@
-//! Volume matching: how well the filled cells agree with a target's, and how far the scene reaches beyond it.
+//! Volume matching: the agreement of filled cells with those of a target, and the reach of the scene beyond it.
 //!
 //! ```text
 //! log score = ln N(similarity; 1, sigma) + ln N(overshoot; 0, sigma)          both with normalisers
@@ -12,7 +12,6 @@
 use super::bag::Bag;
 use super::overshoot::overshoot;
 use super::score::{Sketch, SketchSpec, check_sigma, log_normal, share};
-use super::settings::{Inputs, Named, Settings};
 use crate::bounds::Aabb;
 use crate::bricks::{Counters, Target};
 use crate::error::GeomError;
@@ -20,21 +19,7 @@ use crate::solids::primitive::Primitive;
 use crate::voxel::{Grid, Voxels};
 use crate::window::solid::Volume;
 use crate::window::{Place, WindowForm};
-use serde::Deserialize;
 use std::sync::Arc;
-
-/// The settings of `match_volume`: the standard deviation of both terms.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct VolumeSettings {
-    sigma: f64,
-}
-
-impl Settings for VolumeSettings {
-    fn spec(self, inputs: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
-        match_volume(inputs.target()?, self.sigma)
-    }
-}
 
 /// Scores a scene by how well it fills `target`; `sigma` is the standard deviation of both terms.
 ///
@@ -47,7 +32,7 @@ pub fn match_volume(target: Arc<Target>, sigma: f64) -> Result<Arc<dyn SketchSpe
 
 impl SketchSpec for VolumeMatch {
     fn name(&self) -> &'static str {
-        VolumeSettings::NAME
+        "match_volume"
     }
 
     fn window(&self) -> Option<WindowForm> {
@@ -66,10 +51,10 @@ pub struct VolumeMatch {
     target: Arc<Target>,
     sigma: f64,
     counters: Counters,
-    /// Filled cells, and those of them that the target fills too.
+    /// Filled cells, and the cells among them that the target fills.
     filled: i64,
     inside: i64,
-    /// With the cells that each primitive fills, shape by shape.
+    /// The primitives; a mark has the cells that a primitive fills, shape by shape.
     bag: Bag<Arc<[Voxels]>>,
 }
 
@@ -82,7 +67,7 @@ impl VolumeMatch {
 
     /// Number of cells that are filled in both or empty in both.
     pub fn matched(&self) -> i64 {
-        // Wanted and not filled, or filled and not wanted, is a mismatch.
+        // A cell of the target that is empty, or a filled cell outside of the target, is a mismatch.
         let missing = self.target.filled() as i64 - self.inside;
         let surplus = self.filled - self.inside;
         self.target.grid().len() as i64 - missing - surplus
@@ -109,12 +94,12 @@ impl VolumeMatch {
     }
 }
 
-/// The cells that each shape fills, but for those that fill none.
+/// The cells of each shape that fills any, one after another.
 fn voxels_of(primitive: &Primitive, grid: &Grid) -> impl Iterator<Item = Voxels> {
     primitive.shapes().iter().filter_map(|shape| Voxels::of(shape, grid))
 }
 
-/// The same, all of them.
+/// The cells of each shape that fills any, as a list.
 fn filled_by(primitive: &Primitive, grid: &Grid) -> Arc<[Voxels]> {
     voxels_of(primitive, grid).collect()
 }

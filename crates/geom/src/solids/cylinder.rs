@@ -24,22 +24,22 @@ const BEVEL: f64 = 0.12;
 pub struct Cylinder {
     /// Distance of the vertices from the axis.
     pub radius: f64,
-    /// Along y.
+    /// Length along y.
     pub length: f64,
-    /// Of the polygon.
+    /// Number of sides of the polygon.
     pub sides: usize,
 }
 
 /// A cylinder with two radii.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct TaperedCylinder {
-    /// At the -y end.
+    /// Radius at the -y end.
     pub radius: f64,
-    /// At the +y end.
+    /// Radius at the +y end.
     pub top_radius: f64,
-    /// Along y.
+    /// Length along y.
     pub length: f64,
-    /// Of the polygon.
+    /// Number of sides of the polygon.
     pub sides: usize,
 }
 

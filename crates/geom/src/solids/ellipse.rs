@@ -28,7 +28,7 @@ impl Flat for Ellipse {
 
     fn reach(&self, placement: &Placement) -> Aabb {
         let [long, wide] = self.size;
-        // Half the extent along an axis is the length of what both half axes have along it.
+        // Half the extent along an axis is the length of the vector of both half axes' components along it.
         let u = placement.rotation.apply(vec3(0.5 * long, 0.0, 0.0));
         let v = placement.rotation.apply(vec3(0.0, 0.5 * wide, 0.0));
         let half = vec3((u.x * u.x + v.x * v.x).sqrt(), (u.y * u.y + v.y * v.y).sqrt(), 0.0);

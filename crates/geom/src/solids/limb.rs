@@ -22,9 +22,9 @@ const SIDES: usize = 10;
 /// the ring's plane.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Limb {
-    /// Start and end.
+    /// The rings at the start and the end.
     pub rings: Box<[Ring; 2]>,
-    /// Of both rings.
+    /// The number of sides of both rings.
     pub sides: usize,
 }
 
@@ -56,7 +56,7 @@ impl Measured for Limb {
         hull.map(Coarse::new)
     }
 
-    /// The middle of its first ring; y along the ring's direction, by the shortest turn (Moller and Hughes 1999).
+    /// A frame in the middle of the first ring; y along its direction, by the shortest turn (Moller and Hughes 1999).
     fn frame(&self, placement: &Placement) -> Placement {
         let Ring { center, normal, .. } = self.rings[0];
         let [x, y, z] = normal.to_array();
@@ -89,7 +89,7 @@ pub(super) fn bent(
     }
     let same = || format!("the start and the end of a limb are the same point, {:?}", start.to_array());
     let along = || (end - start).unit().ok_or_else(|| GeomError::new("bad-shape", same()));
-    let normal = |given: Option<Vec3>, what| given.map_or_else(along, |given| direction(given, what));
+    let normal = |normal: Option<Vec3>, name| normal.map_or_else(along, |normal| direction(normal, name));
     let start = Ring { center: start, normal: normal(normals.0, "start normal")?, radius: radii.0 };
     let end = Ring { center: end, normal: normal(normals.1, "end normal")?, radius: radii.1 };
     Ok(Limb { rings: Box::new([start, end]), sides: SIDES })

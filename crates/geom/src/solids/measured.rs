@@ -1,4 +1,4 @@
-//! What the engine must know of a solid: the trait that each kind implements, and the checks that kinds share.
+//! The trait of each kind of solid, and the checks of measures.
 
 use crate::bounds::Aabb;
 use crate::convex::Coarse;
@@ -8,27 +8,27 @@ use crate::mesh::TriMesh;
 use crate::placement::Placement;
 use crate::vector::Vec3;
 
-/// What the surface of a solid is, and so how it is voxelised and compared with others.
+/// The form of the surface of a solid: it decides how the solid is voxelised and intersected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// A box: it needs no store for its eight corners. Only [`super::Solid::Box`] is one.
+    /// A box, which needs no store for its eight corners. Only [`super::Solid::Box`] has this form.
     Box,
-    /// Convex: [`Measured::hull`] gives it.
+    /// A convex solid, by [`Measured::hull`].
     Convex,
-    /// Any closed surface: [`Measured::mesh`] gives it. Slower than a hull, and right for a solid with a hollow or a hole.
+    /// Any closed surface, by [`Measured::mesh`]. It is slower than a hull, and right for a solid with a hollow or a hole.
     Mesh,
-    /// On a plane parallel to z = 0: a shape of drawings, in space a thin plate ([`Measured::mesh`]).
+    /// A shape of drawings on a plane parallel to z = 0, in space a thin plate ([`Measured::mesh`]).
     Flat,
 }
 
 /// The tone that pictures and files give a solid without a colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tone {
-    /// Of flat faces: warm grey; among bark it is foliage.
+    /// The tone of flat faces: warm grey; among bark it is foliage.
     Plain,
-    /// Of what is round: graphite; among bark it is foliage.
+    /// The tone of round solids: graphite; among bark it is foliage.
     Round,
-    /// Of what grows. One such solid without a colour makes a scene a garden.
+    /// The tone of plants. A single such solid without a colour makes a scene a garden.
     Bark,
 }
 
@@ -48,41 +48,41 @@ impl Tone {
 /// The solid lies around the origin, in scene units, right-handed with y up. A method that takes a [`Placement`] gives
 /// points of the world: `placement.apply(p)`, so that a corner that two parts share is computed once, with the same bits.
 pub trait Measured {
-    /// Its name in messages and in `Shape.kind`: lower case, words joined by hyphens.
+    /// The name in messages and in `Shape.kind`: lower case, words joined by hyphens.
     const KIND: &'static str;
-    /// What its surface is.
+    /// The form of the surface.
     const FORM: Form = Form::Convex;
-    /// Its tone where it has no colour.
+    /// The tone without a colour.
     const TONE: Tone = Tone::Plain;
 
-    /// Refuses measures that no solid has: sizes that are not positive and finite, directions that are none. What passes has
-    /// a fine mesh; whether it also has an inside at its place says the hull or the mesh.
+    /// Refuses measures that no solid has: sizes that are not positive and finite, vectors that are no directions. A solid that
+    /// passes has a fine mesh; its hull or mesh decides whether it also has an inside at its place.
     ///
     /// # Errors
     /// `bad-shape`, with the measure, its value and what is expected; [`Checks`] has the sentences.
     fn check(&self, checks: Checks) -> Result<(), GeomError>;
 
-    /// Bytes that it takes beside itself, on the heap.
+    /// Its bytes on the heap.
     fn bytes(&self) -> usize {
         0
     }
 
-    /// The convex solid in the world, of [`Form::Convex`]: few corners, which voxels and intersections use. Round parts are
+    /// The convex solid of [`Form::Convex`] in the world, with few corners for voxels and intersections. Round parts are
     /// inscribed polygons with a vertex on each axis ([`crate::ring`]), because parts are attached flush there. `None`
-    /// where it has no inside.
+    /// without an inside.
     fn hull(&self, _placement: &Placement) -> Option<Coarse> {
         None
     }
 
-    /// The closed surface in the world, counter-clockwise seen from outside, of [`Form::Mesh`] and [`Form::Flat`].
+    /// The closed surface of [`Form::Mesh`] and [`Form::Flat`] in the world, counter-clockwise seen from outside.
     ///
     /// # Errors
-    /// `bad-shape` for a surface that is none.
+    /// `bad-shape` for triangles that are no surface.
     fn mesh(&self, _placement: &Placement) -> Result<TriMesh, GeomError> {
         bad("a solid without geometry".to_string())
     }
 
-    /// The smallest box around [`Measured::mesh`], of every form but [`Form::Convex`].
+    /// The smallest box around [`Measured::mesh`], for every form but [`Form::Convex`].
     ///
     /// # Errors
     /// `bad-shape` for a placement that this solid cannot have.
@@ -90,13 +90,13 @@ pub trait Measured {
         self.mesh(placement).map(|mesh| mesh.aabb())
     }
 
-    /// The frame about which a person would turn it, in the world: a point of it, and its own axes.
+    /// The frame about which a person turns the solid, in the world: one of its points, and its axes.
     fn frame(&self, placement: &Placement) -> Placement {
         *placement
     }
 
-    /// The mesh for pictures and files, around the origin: closed, round, with a unit normal at each vertex; its edges are
-    /// rounded by `bevel` (a share of the half lengths, from 0 to 1) where the shape gives one.
+    /// The mesh for pictures and files, around the origin: closed, round, with a unit normal at each vertex; edges are
+    /// rounded by `bevel` (a share of the half lengths, from 0 to 1), if the shape has it.
     fn fine(&self, bevel: Option<f64>) -> FineMesh;
 }
 
@@ -107,27 +107,27 @@ pub struct Checks {
 }
 
 impl Checks {
-    /// Of this kind of solid.
+    /// The checks of this kind of solid.
     pub fn of<M: Measured>() -> Checks {
         Checks { kind: M::KIND }
     }
 
-    /// A length above zero.
+    /// Refuses a length unless it is above zero.
     #[inline]
-    pub fn positive(self, what: &str, x: f64) -> Result<(), GeomError> {
+    pub fn positive(self, subject: &str, x: f64) -> Result<(), GeomError> {
         match x > 0.0 && x.is_finite() {
             true => Ok(()),
-            false => bad(format!("the {what} of a {} is {x}, expected a positive number", self.kind)),
+            false => bad(format!("the {subject} of a {} is {x}, expected a positive number", self.kind)),
         }
     }
 
-    /// A length of zero or more.
+    /// Refuses a length below zero.
     #[inline]
-    pub fn not_negative(self, what: &str, x: f64) -> Result<(), GeomError> {
-        if x == 0.0 { Ok(()) } else { self.positive(what, x) }
+    pub fn not_negative(self, subject: &str, x: f64) -> Result<(), GeomError> {
+        if x == 0.0 { Ok(()) } else { self.positive(subject, x) }
     }
 
-    /// Sides of a polygon.
+    /// Refuses a number of sides that no polygon has.
     #[inline]
     pub fn sides(self, sides: usize) -> Result<(), GeomError> {
         match (3..=1024).contains(&sides) {
@@ -136,32 +136,32 @@ impl Checks {
         }
     }
 
-    /// Full lengths along x, y and z.
+    /// Refuses full lengths along x, y and z unless they are above zero.
     #[inline]
     pub fn sizes(self, size: Vec3) -> Result<(), GeomError> {
         size.to_array().into_iter().try_for_each(|s| self.positive("size", s))
     }
 
-    /// A point; `what` is the subject of the sentence.
+    /// Refuses a point that is not finite; `subject` begins the sentence.
     #[inline]
-    pub fn finite(self, what: &str, p: Vec3) -> Result<(), GeomError> {
+    pub fn finite(self, subject: &str, p: Vec3) -> Result<(), GeomError> {
         match p.is_finite() {
             true => Ok(()),
-            false => bad(format!("the {what} is {:?}, expected finite numbers", p.to_array())),
+            false => bad(format!("the {subject} is {:?}, expected finite numbers", p.to_array())),
         }
     }
 
-    /// A direction of length 1; `what` is the subject of the sentence.
+    /// Refuses a direction unless its length is 1; `subject` begins the sentence.
     #[inline]
-    pub fn unit(self, what: &str, v: Vec3) -> Result<(), GeomError> {
+    pub fn unit(self, subject: &str, v: Vec3) -> Result<(), GeomError> {
         match (v.norm() - 1.0).abs() < 1e-6 {
             true => Ok(()),
-            false => bad(format!("the {what} is {:?}, expected a direction of length 1", v.to_array())),
+            false => bad(format!("the {subject} is {:?}, expected a direction of length 1", v.to_array())),
         }
     }
 }
 
-/// The fault of a solid that lies in a plane.
+/// Refuses a solid that lies in a plane.
 #[cold]
 pub(crate) fn no_inside<T>(kind: &str) -> Result<T, GeomError> {
     bad(format!("{kind} has no inside"))

@@ -20,7 +20,7 @@ impl Measured for Arc<TriMesh> {
         Ok(())
     }
 
-    /// Those of its triangles, too.
+    /// The bytes of vertices and triangles.
     fn bytes(&self) -> usize {
         TriMesh::bytes(self)
     }
@@ -33,12 +33,12 @@ impl Measured for Arc<TriMesh> {
         Ok(Aabb::around(self.corners().flatten().map(|p| placement.apply(p))))
     }
 
-    /// Its own origin, or its middle where that is far away.
+    /// A frame at the origin of the mesh, or in its middle if the origin is far away.
     fn frame(&self, placement: &Placement) -> Placement {
         let Ok(around) = Measured::aabb(self, placement) else { return *placement };
-        let own = placement.translation;
-        let is_far = Aabb { low: around.low - own, high: around.high - own }.is_far();
-        Placement { translation: if is_far { around.center() } else { own }, ..*placement }
+        let origin = placement.translation;
+        let is_far = Aabb { low: around.low - origin, high: around.high - origin }.is_far();
+        Placement { translation: if is_far { around.center() } else { origin }, ..*placement }
     }
 
     fn fine(&self, _bevel: Option<f64>) -> FineMesh {

@@ -2,7 +2,7 @@
 //!
 //! To add a solid, write a file like `cylinder.rs` (a type that is [`Measured`], and a [`word::Word`]) and a row below.
 //!
-//! - [`measured`]: what each kind of solid must say of itself
+//! - [`measured`]: the trait of each kind of solid
 //! - [`word`]: the words of the language that make solids, as data
 //! - [`shape`], [`words`], [`primitive`]: the placed solids that a model emits
 //! - `plate`: flat shapes as solids
@@ -78,18 +78,18 @@ macro_rules! solids {
                 match self { $(Solid::$variant(_) => <$measures as Measured>::KIND,)* }
             }
 
-            /// What its surface is.
+            /// The form of the surface.
             #[inline]
             pub fn form(&self) -> Form {
                 match self { $(Solid::$variant(_) => <$measures as Measured>::FORM,)* }
             }
 
-            /// Its tone where it has no colour.
+            /// The tone without a colour.
             pub fn tone(&self) -> Tone {
                 match self { $(Solid::$variant(_) => <$measures as Measured>::TONE,)* }
             }
 
-            /// Bytes that it takes beside itself, and of a mesh those of its triangles.
+            /// Its bytes on the heap, with the triangles of a mesh.
             pub(crate) fn bytes(&self) -> usize {
                 match self { $(Solid::$variant(solid) => Measured::bytes(solid),)* }
             }
@@ -97,7 +97,7 @@ macro_rules! solids {
             /// Refuses measures that no solid has.
             ///
             /// # Errors
-            /// `bad-shape` for sizes that are not positive and finite, and for directions that are none.
+            /// `bad-shape` for sizes that are not positive and finite, and for vectors that are no directions.
             #[inline]
             pub(crate) fn check(&self) -> Result<(), GeomError> {
                 match self { $(Solid::$variant(solid) => solid.check(Checks::of::<$measures>()),)* }
@@ -169,7 +169,7 @@ solids! {
 }
 
 impl Solid {
-    /// True for what lies on a plane parallel to z = 0; in space it is a thin plate.
+    /// True for a shape on a plane parallel to z = 0; in space it is a thin plate.
     pub fn is_flat(&self) -> bool {
         self.form() == Form::Flat
     }

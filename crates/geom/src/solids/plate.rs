@@ -1,6 +1,6 @@
 //! Flat shapes as solids: plates parallel to the plane z = 0, a tenth as thick as they are wide.
 //!
-//! So a drawing can also be exported, printed or shown as a relief. Drawings themselves never look at the plate.
+//! Plates serve for exports, prints and reliefs of a drawing. The drawing itself never uses them.
 
 use crate::bounds::Aabb;
 use crate::error::{GeomError, bad_shape as bad};
@@ -10,7 +10,7 @@ use crate::placement::Placement;
 use crate::vector::{Vec3, vec3};
 use std::f64::consts::TAU;
 
-/// Half of a plate's thickness, as a share of the smallest half width of its shape.
+/// Half the thickness of a plate, as a share of the smallest half width of its shape.
 const THICK: f64 = 0.1;
 /// Sides of a whole turn of the coarse mesh.
 const COARSE: usize = 16;
@@ -30,7 +30,7 @@ pub(super) trait Flat {
 /// The box around the plate of a flat solid, in the world.
 ///
 /// # Errors
-/// `bad-shape` for one that is turned out of its plane.
+/// `bad-shape` for a shape that is turned out of its plane.
 pub(super) fn aabb(flat: &impl Flat, placement: &Placement) -> Result<Aabb, GeomError> {
     let up = Vec3::AXES[2];
     if (placement.rotation.apply(up) - up).norm() > 1e-6 {
@@ -42,7 +42,7 @@ pub(super) fn aabb(flat: &impl Flat, placement: &Placement) -> Result<Aabb, Geom
     Ok(Aabb { low: boxed.low - thick, high: boxed.high + thick })
 }
 
-/// Points of a circle from the angle `from` on; of an arc both ends.
+/// Points of a circle from the angle `from` on; an arc has both its ends.
 pub(super) fn arc(center: Vec3, radius: f64, from: f64, angle: f64, steps: usize) -> Vec<Vec3> {
     (0..steps + usize::from(angle < TAU))
         .map(|k| {

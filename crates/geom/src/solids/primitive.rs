@@ -1,4 +1,4 @@
-//! A primitive: the shapes of one `emit`. One barrier, one score; its shapes are never tested against each other.
+//! Primitives: the shapes of one `emit`, with one barrier and one score. Shapes of a primitive never intersect each other.
 
 use crate::bounds::Aabb;
 use crate::solids::shape::Shape;
@@ -26,7 +26,7 @@ impl Primitive {
     /// A primitive of `shapes`, in order.
     pub fn new(shapes: impl AsRef<[Shape]>) -> Primitive {
         Primitive(match shapes.as_ref() {
-            [one] => Held::One(one.clone()),
+            [shape] => Held::One(shape.clone()),
             shapes => {
                 let aabb = shapes.iter().fold(Aabb::EMPTY, |b, s| b.union(s.aabb()));
                 Held::Several(Arc::new(Several { aabb, shapes: shapes.into() }))
@@ -43,7 +43,7 @@ impl Primitive {
         }
     }
 
-    /// The smallest box around all of them.
+    /// The smallest box around all shapes.
     #[inline]
     pub fn aabb(&self) -> &Aabb {
         match &self.0 {

@@ -1,4 +1,4 @@
-//! Segments of a tree, over three frames: `segment`. What they mean is in [`crate::segment`].
+//! Segments of a tree, over three frames: `segment`. [`crate::segment`] explains them.
 
 use super::measured::{Checks, Measured, Tone};
 use super::word::kinds::{Barked, Framed};
@@ -41,13 +41,13 @@ impl Measured for Tube {
         Tube::bytes(self)
     }
 
-    /// It is at the coordinates of its frames: a placement is not read.
+    /// The hull at the coordinates of the frames; it ignores the placement.
     fn hull(&self, _placement: &Placement) -> Option<Coarse> {
         let whole = Hull::nearly(segment::corners(self)?, segment::tube())?;
         Some(Coarse::of_segment(whole, self.is_welded()))
     }
 
-    /// The middle of its first ring; y forward and z up.
+    /// A frame in the middle of the first ring; y forward and z up.
     fn frame(&self, placement: &Placement) -> Placement {
         let [Frame { center, forward, up, .. }, ..] = self.frames();
         let rotation = Mat3 { columns: [forward.cross(up), forward, up] };

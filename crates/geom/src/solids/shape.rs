@@ -1,6 +1,6 @@
-//! A shape: a solid, its place and its look. It never changes and is shared by counting references.
+//! Shapes: a solid, its place and its look. A shape never changes, and reference counts share it.
 //!
-//! Scores use the coarse mesh of its solid, whose hull is computed with the shape, but not held by it
+//! Scores use the coarse mesh of its solid. Its hull is computed with the shape, but a store keeps it
 //! ([`crate::store`]). Pictures and files show the fine mesh of the same solid.
 
 use super::measured::{Form, Tone, no_inside};
@@ -18,23 +18,23 @@ use serde::{Deserialize, Serialize};
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The data of a shape. It must be small: a population of particles holds millions of them.
+/// The data of a shape. They must be small: a population of particles has millions of shapes.
 #[derive(Debug)]
 struct Inner {
     solid: Solid,
     translation: Vec3,
-    /// None where it is not turned, to the bit.
+    /// The rotation; `None` for the identity, to the bit.
     rotation: Option<Box<Mat3>>,
-    /// None where nothing of it is given.
+    /// The paint; `None` for an empty look.
     paint: Option<Box<Paint>>,
     aabb: Aabb,
-    /// Of the hull of a solid that is neither a box nor a mesh; infinite for these.
+    /// The thickness of the hull; infinite for a box and a mesh.
     width: f64,
-    /// Of its geometry in a store; none for a box.
+    /// The number of its geometry in a store; no number for a box.
     number: Number,
 }
 
-// With the counters in front of it, 160 bytes: a size that allocators have.
+// With the counters in front of it, the size is 160 bytes, which is a size class of allocators.
 const _: () = assert!(std::mem::size_of::<Inner>() <= 144);
 
 /// A placed solid with its look. Cloning shares it.
@@ -106,7 +106,7 @@ impl Inner {
 }
 
 impl Shape {
-    /// Places `solid` in the world and computes the data for scores. The rotation of its look is not read.
+    /// Places `solid` in the world and computes the data for scores. It ignores the rotation of the look.
     ///
     /// # Errors
     /// `bad-shape` for sizes that are not positive and finite, a placement that is not a rotation, a flat limb, or a look
@@ -130,7 +130,7 @@ impl Shape {
                 aabb
             }
         };
-        // Beyond this, squares and products of lengths lose all meaning.
+        // Beyond this length, squares and products of lengths lose too many digits.
         let reach = aabb.union(&Aabb { low: Vec3::ZERO, high: Vec3::ZERO }).extent().norm();
         if reach.is_nan() || reach > 1e12 {
             return bad_shape("the shape is farther than 1e12 from the origin".to_string());
@@ -146,19 +146,19 @@ impl Shape {
         &self.0.solid
     }
 
-    /// Where it is.
+    /// The placement.
     #[inline]
     pub fn placement(&self) -> Placement {
         self.0.placement()
     }
 
-    /// How it is turned, before it is moved.
+    /// The rotation, which precedes the move.
     #[inline]
     pub fn rotation(&self) -> &Mat3 {
         self.0.rotation()
     }
 
-    /// How far it is moved, scene units.
+    /// The move, scene units.
     #[inline]
     pub fn translation(&self) -> Vec3 {
         self.0.translation
@@ -174,46 +174,46 @@ impl Shape {
         Some(self.0.paint().color).filter(|color| !color[0].is_nan())
     }
 
-    /// From 0 (paint, wood, stone) to 1 (metal).
+    /// Metalness, from 0 (paint, wood, stone) to 1 (metal).
     pub fn metalness(&self) -> Option<f32> {
         Some(self.0.paint().finish[0]).filter(|share| !share.is_nan())
     }
 
-    /// From 0 (a mirror) to 1 (chalk).
+    /// Roughness, from 0 (a mirror) to 1 (chalk).
     pub fn roughness(&self) -> Option<f32> {
         Some(self.0.paint().finish[1]).filter(|share| !share.is_nan())
     }
 
-    /// The kind of its solid: one of [`super::KINDS`].
+    /// The kind of the solid: one of [`super::KINDS`].
     pub fn kind(&self) -> &'static str {
         self.0.solid.kind()
     }
 
-    /// Its tone where it has no colour.
+    /// The tone without a colour.
     pub fn tone(&self) -> Tone {
         self.0.solid.tone()
     }
 
-    /// Its address in memory: no other shape has it while this one exists.
+    /// The address in memory, which is unique while the shape exists.
     #[inline]
     pub fn address(&self) -> usize {
         Arc::as_ptr(&self.0) as usize
     }
 
-    /// Whether something else holds it, too.
+    /// True if there is another reference to it.
     #[inline]
     pub fn is_shared(&self) -> bool {
         Arc::strong_count(&self.0) > 1
     }
 
-    /// Bytes that it takes, and of a mesh those of its triangles. Its geometry is in stores of limited size, and does not count.
+    /// Its bytes, with the triangles of a mesh. Its geometry is in stores of limited size, and does not count.
     pub fn bytes(&self) -> usize {
         let turned = self.0.rotation.as_ref().map_or(0, |_| size_of::<Mat3>());
         let painted = self.0.paint.as_ref().map_or(0, |_| size_of::<Paint>());
         16 + size_of::<Inner>() + turned + painted + self.0.solid.bytes()
     }
 
-    /// The smallest box around the coarse mesh, world space; of a flat shape, around the outline.
+    /// The smallest box around the coarse mesh, world space; for a flat shape, around the outline.
     #[inline]
     pub fn aabb(&self) -> &Aabb {
         &self.0.aabb
@@ -232,7 +232,7 @@ impl Shape {
         matches!(self.0.solid.form(), Form::Box | Form::Convex)
     }
 
-    /// The convex solid; `None` for what has a mesh. A segment's is a little larger than it: see [`Convex::pieces`].
+    /// The convex solid; `None` for a solid with a mesh. For a segment it is a little larger: see [`Convex::pieces`].
     #[inline]
     pub fn convex(&self) -> Option<Convex<'static>> {
         let Inner { solid, number, .. } = &*self.0;
@@ -254,8 +254,8 @@ impl Shape {
     }
 
     /// The mesh with many sides in the world, for pictures and files: rounded edges, round cylinders, smooth normals (the high
-    /// resolution of chapter 5's figures). Where a flat face meets a round rim they share vertices, because their normals agree
-    /// there.
+    /// resolution of chapter 5's figures). A flat face and a round rim share vertices where they meet, because their normals
+    /// agree there.
     pub fn fine_mesh(&self) -> FineMesh {
         let bevel = self.bevel().map(|bevel| bevel.clamp(0.0, 1.0));
         let (mut mesh, placement) = (self.0.solid.fine(bevel).without_unused(), self.placement());
@@ -268,7 +268,7 @@ impl Shape {
         mesh
     }
 
-    /// The frame about which a person would turn it: a point of it, and its own axes.
+    /// The frame about which a person turns the shape: one of its points, and its axes.
     pub fn frame(&self) -> Placement {
         self.0.solid.frame(&self.placement())
     }

@@ -17,9 +17,9 @@ use std::f64::consts::TAU;
 /// A round end of a stroke.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Round {
-    /// Middle, scene units.
+    /// The middle, scene units.
     pub center: Vec3,
-    /// Greater than zero.
+    /// The radius, greater than zero.
     pub radius: f64,
 }
 
@@ -31,7 +31,7 @@ pub struct Stroke {
 }
 
 impl Stroke {
-    /// From one width to another.
+    /// A stroke from one width to another.
     pub(super) fn new(start: Vec3, end: Vec3, widths: (f64, f64)) -> Stroke {
         let round = |center, width| Round { center, radius: 0.5 * width };
         Stroke { ends: Box::new([round(start, widths.0), round(end, widths.1)]) }
@@ -96,11 +96,11 @@ impl Measured for Stroke {
         Ok(boxed)
     }
 
-    /// Its start; x towards its end, by a turn about z.
+    /// A frame at the start; x towards the end, by a turn about z.
     fn frame(&self, placement: &Placement) -> Placement {
         let [start, end] = self.ends.each_ref().map(|end| end.center);
         let along = end - start;
-        // In two steps: files keep all digits of a turn, and the first may vanish for a tiny stroke.
+        // Two steps, because files keep all digits of a turn, and the first may vanish for a tiny stroke.
         let near = match along.y.mul_add(along.y, along.x * along.x).sqrt() {
             0.0 => along,
             length => along / length,

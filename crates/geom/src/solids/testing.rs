@@ -1,4 +1,4 @@
-//! What holds of every solid.
+//! Properties of every solid.
 
 use super::shape::Shape;
 use crate::bounds::Aabb;
@@ -27,8 +27,8 @@ pub(crate) fn sound(shape: &Shape, expected: f64, tolerance: f64) {
     let fine = shape.fine_mesh();
     let mesh = TriMesh::new(fine.vertices.clone(), fine.faces.clone()).unwrap();
     assert_eq!(mesh.open_edges(), 0, "{}", shape.kind());
-    let found = volume(&mesh);
-    assert!((found / expected - 1.0).abs() < tolerance, "{}: {found} for {expected}", shape.kind());
+    let measured = volume(&mesh);
+    assert!((measured / expected - 1.0).abs() < tolerance, "{}: {measured} for {expected}", shape.kind());
     let used: std::collections::HashSet<u32> = fine.faces.iter().flatten().copied().collect();
     assert_eq!(used.len(), fine.vertices.len(), "{}", shape.kind());
     for face in &fine.faces {

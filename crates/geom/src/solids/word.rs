@@ -1,7 +1,7 @@
-//! The words of the language that make solids: their parameters as data, and how a call of them is read.
+//! The words of the language that make solids: their parameters as data, and the reading of their calls.
 //!
-//! `word!` declares a word: its parameters with their kinds ([`kinds`]), what is taken where one is left out, and what
-//! the manual says. Python's functions, stubs and pages are written from these descriptions; the machine reads calls by them.
+//! `word!` declares a word: its parameters with their kinds ([`kinds`]), defaults and texts of the manual. `make words` writes
+//! Python's functions, stubs and pages from these descriptions; the machine reads calls by them.
 
 use crate::error::GeomError;
 use crate::look::Look;
@@ -16,13 +16,13 @@ use std::sync::Arc;
 /// A word as data.
 #[derive(Clone, Copy, Debug)]
 pub struct Description {
-    /// Its name in the language.
+    /// The name in the language.
     pub name: &'static str,
-    /// What it makes.
+    /// The description for the manual.
     pub doc: &'static str,
-    /// Its parameters without those of its look.
+    /// The parameters without those of the look.
     pub measures: &'static [Parameter],
-    /// The parameters of its look, which come last.
+    /// The parameters of the look, which come last.
     pub look: &'static [Parameter],
 }
 
@@ -32,7 +32,7 @@ impl Description {
         self.measures.iter().chain(self.look)
     }
 
-    /// How many parameters must be given, and how many there are.
+    /// The number of required parameters, and the number of all.
     pub const fn counts(&self) -> (usize, usize) {
         let mut needed = 0;
         while needed < self.measures.len() && self.measures[needed].default.is_none() {
@@ -42,11 +42,11 @@ impl Description {
     }
 }
 
-/// The arguments of a call, by place. What is wrong with one is said by whoever holds them.
+/// The arguments of a call, by place. Implementations make the faults of wrong arguments.
 pub trait Arguments<S: Scalar> {
-    /// Why an argument cannot be read.
+    /// The fault of an argument that cannot be read.
     type Fault;
-    /// False for what is left out, or None.
+    /// False for an argument that is absent or None.
     fn is_given(&self, at: usize) -> bool;
     /// A number.
     fn real(&self, at: usize) -> Result<S, Self::Fault>;
@@ -66,7 +66,7 @@ pub trait Arguments<S: Scalar> {
     fn mesh(&self, at: usize) -> Result<Arc<TriMesh>, Self::Fault>;
 }
 
-/// A word, as it was called: what `word!` makes of its declaration.
+/// A call of a word: `word!` implements it from the declaration.
 pub trait Called<S: Scalar>: Sized {
     /// The word as data.
     const DESCRIPTION: Description;
@@ -74,27 +74,27 @@ pub trait Called<S: Scalar>: Sized {
     /// The arguments of a call, in order.
     ///
     /// # Errors
-    /// That of the first argument that is missing or of another kind.
-    fn read<A: Arguments<S>>(given: &A) -> Result<Self, A::Fault>;
+    /// The fault of the first argument that is missing or of another kind.
+    fn read<A: Arguments<S>>(arguments: &A) -> Result<Self, A::Fault>;
 
-    /// Colour and surface; its rotation is none, for that is a parameter by itself.
+    /// Colour and surface, without a rotation, which is a parameter of its own.
     fn look(&self) -> &Look;
 }
 
-/// What a word makes.
+/// The solid of a word.
 pub trait Word<S: Scalar>: Called<S> {
     /// The kind of solid, or [`Either`] of two.
     type Solid;
 
-    /// The solid and where it is; [`plain`] gives the numbers of arguments. Measures are checked later
-    /// ([`super::Measured::check`]): here only what would be lost on the way.
+    /// The solid and its placement; [`plain`] gives the numbers of arguments. [`super::Measured::check`] checks measures later:
+    /// this function only checks values that the solid would lose.
     ///
     /// # Errors
     /// `bad-shape`.
     fn solid(&self) -> Result<(Self::Solid, Placement), GeomError>;
 
-    /// Where it is, for gradients: its middle and three directions, of which some may be zero, by the arguments as they
-    /// came. A point that is fixed to the shape is the middle and a sum of these. [`turned`] and [`between`] suit most.
+    /// The position for gradients: the middle and three directions, some of which may be zero, as functions of the arguments. A
+    /// point that is fixed to the shape is the middle plus a sum of these. [`turned`] and [`between`] suit most words.
     fn at(&self) -> [[S; 3]; 4];
 }
 
@@ -103,7 +103,7 @@ pub trait Word<S: Scalar>: Called<S> {
 pub enum Either<A, B> {
     /// The plain kind.
     Plain(A),
-    /// The other.
+    /// The other kind.
     Other(B),
 }
 
@@ -112,22 +112,22 @@ pub fn plain<S: Scalar>(three: [S; 3]) -> Vec3 {
     Vec3::from(three.map(Scalar::value))
 }
 
-/// A direction of length 1; `what` names it in a message.
+/// A direction of length 1; `name` names it in a message.
 ///
 /// # Errors
-/// `bad-shape` for none.
-pub fn direction(v: Vec3, what: &str) -> Result<Vec3, GeomError> {
-    let message = || format!("the {what} is {:?}, expected a direction", v.to_array());
+/// `bad-shape` for a vector without direction.
+pub fn direction(v: Vec3, name: &str) -> Result<Vec3, GeomError> {
+    let message = || format!("the {name} is {:?}, expected a direction", v.to_array());
     v.unit().ok_or_else(|| GeomError::new("bad-shape", message()))
 }
 
-/// Around `center`; laid along its axis, then turned as it was given.
+/// The placement around `center`: laid along the axis, then turned by `rotation`.
 pub fn placed<S: Scalar>(center: [S; 3], laid: Mat3, rotation: Option<[[S; 3]; 3]>) -> Placement {
-    let given = rotation.map(|rows| Mat3::from_rows(rows.map(|row| row.map(Scalar::value))));
-    Placement { rotation: given.map_or(laid, |given| given.after(&laid)), translation: plain(center) }
+    let turn = rotation.map(|rows| Mat3::from_rows(rows.map(|row| row.map(Scalar::value))));
+    Placement { rotation: turn.map_or(laid, |turn| turn.after(&laid)), translation: plain(center) }
 }
 
-/// Turned, the directions of the coordinates times `size`.
+/// The position of a turned solid: the directions of the coordinates times `size`.
 pub fn turned<S: Scalar>(center: [S; 3], rotation: Option<[[S; 3]; 3]>, size: [S; 3]) -> [[S; 3]; 4] {
     let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let rotation = rotation.unwrap_or_else(|| unit.map(|row| row.map(S::from_f64)));
@@ -149,14 +149,14 @@ pub fn laid_along<S: Scalar>(
     [center, zero, turn.map(|row| (row[0] * axis[0] + row[1] * axis[1] + row[2] * axis[2]) * scale), zero]
 }
 
-/// Between two points, and from the one to the other.
+/// The position between two points: the middle, and the direction from `start` to `end`.
 pub fn between<S: Scalar>(start: [S; 3], end: [S; 3]) -> [[S; 3]; 4] {
     let (half, zero) = (S::from_f64(0.5), [S::from_f64(0.0); 3]);
     let along = [0, 1, 2].map(|k| end[k] - start[k]);
     [[0, 1, 2].map(|k| start[k] + half * along[k]), zero, along, zero]
 }
 
-/// Kinds of parameters: the type that an argument has in a call, and how it is read. `Option` of a kind may be left out.
+/// Kinds of parameters: the type of an argument in a call, and its reading. An `Option` of a kind may be absent.
 pub mod kinds {
     use super::{Arc, Arguments, Bark, Frame, Scalar, TriMesh};
 
@@ -164,38 +164,38 @@ pub mod kinds {
     pub trait Kind {
         /// An argument of this kind.
         type Of<S: Scalar>;
-        /// What a declaration gives for one that is left out.
+        /// The default in a declaration.
         type Default;
-        /// Its type in Python, without ` | None`.
+        /// The type in Python, without ` | None`.
         const PYTHON: &'static str;
-        /// True where it may always be left out.
+        /// True if it may always be absent.
         const OPTIONAL: bool = false;
 
         /// The argument at a place.
         ///
         /// # Errors
-        /// Where it is missing, or of another kind.
-        fn read<S: Scalar, A: Arguments<S>>(given: &A, at: usize) -> Result<Self::Of<S>, A::Fault>;
+        /// The fault of an argument that is missing or of another kind.
+        fn read<S: Scalar, A: Arguments<S>>(arguments: &A, at: usize) -> Result<Self::Of<S>, A::Fault>;
 
-        /// The argument that stands for one that is left out.
+        /// The argument of a default.
         fn default<S: Scalar>(default: Self::Default) -> Self::Of<S>;
     }
 
-    /// The argument at a place, or what stands for it.
+    /// The argument at a place, or its default.
     #[inline]
     pub fn read_or<K: Kind, S: Scalar, A: Arguments<S>>(
-        given: &A,
+        arguments: &A,
         at: usize,
         default: Option<K::Default>,
     ) -> Result<K::Of<S>, A::Fault> {
         match default {
-            Some(default) if !given.is_given(at) => Ok(K::default(default)),
-            _ => K::read(given, at),
+            Some(default) if !arguments.is_given(at) => Ok(K::default(default)),
+            _ => K::read(arguments, at),
         }
     }
 
-    /// Whether there is a solid depends on the signs of its measures, so a recording holds only where the sign stays: the
-    /// comparison notes that.
+    /// A measure whose sign decides about the solid. A recording holds only while the sign stays, and the comparison records
+    /// this.
     #[inline]
     fn signed<S: Scalar>(measure: S) -> S {
         let _ = measure > S::from_f64(0.0);
@@ -204,7 +204,7 @@ pub mod kinds {
 
     /// Declares a kind.
     macro_rules! kind {
-        ($(#[$doc:meta])* $kind:ident $python:literal [$($of:tt)*] $default:ty, |$d:pat_param| $made:expr, |$given:ident, $at:ident| $read:expr) => {
+        ($(#[$doc:meta])* $kind:ident $python:literal [$($of:tt)*] $default:ty, |$d:pat_param| $made:expr, |$arguments:ident, $at:ident| $read:expr) => {
             $(#[$doc])*
             #[derive(Clone, Copy, Debug)]
             pub enum $kind {}
@@ -215,7 +215,7 @@ pub mod kinds {
                 const PYTHON: &'static str = $python;
 
                 #[inline]
-                fn read<S: Scalar, A: Arguments<S>>($given: &A, $at: usize) -> Result<Self::Of<S>, A::Fault> {
+                fn read<S: Scalar, A: Arguments<S>>($arguments: &A, $at: usize) -> Result<Self::Of<S>, A::Fault> {
                     $read
                 }
 
@@ -226,51 +226,51 @@ pub mod kinds {
         };
     }
 
-    /// No value: what can never be left out has no default.
+    /// No value: the default of a parameter that can never be absent.
     #[derive(Clone, Copy, Debug)]
     pub enum Never {}
 
     kind! {
         /// A point or a direction.
-        Point "VecLike" [[S; 3]] (f64, f64, f64), |(x, y, z)| [x, y, z].map(S::from_f64), |given, at| given.three(at)
+        Point "VecLike" [[S; 3]] (f64, f64, f64), |(x, y, z)| [x, y, z].map(S::from_f64), |arguments, at| arguments.three(at)
     }
     kind! {
         /// Three lengths.
-        Lengths "VecLike" [[S; 3]] Never, |never| match never {}, |given, at| Ok(given.three(at)?.map(signed))
+        Lengths "VecLike" [[S; 3]] Never, |never| match never {}, |arguments, at| Ok(arguments.three(at)?.map(signed))
     }
     kind! {
         /// A length, a width or a factor of them.
-        Length "float" [S] f64, |length| S::from_f64(length), |given, at| given.real(at).map(signed)
+        Length "float" [S] f64, |length| S::from_f64(length), |arguments, at| arguments.real(at).map(signed)
     }
     kind! {
         /// Any number, such as an angle.
-        Number "float" [S] f64, |number| S::from_f64(number), |given, at| given.real(at)
+        Number "float" [S] f64, |number| S::from_f64(number), |arguments, at| arguments.real(at)
     }
     kind! {
         /// The rows of a rotation.
-        Turn "Rotation" [[[S; 3]; 3]] Never, |never| match never {}, |given, at| given.rows(at)
+        Turn "Rotation" [[[S; 3]; 3]] Never, |never| match never {}, |arguments, at| arguments.rows(at)
     }
     kind! {
         /// The letter of a coordinate, as its number.
-        Letter "str" [usize] &'static str, |letter| coordinate(letter), |given, at| given.letter(at)
+        Letter "str" [usize] &'static str, |letter| coordinate(letter), |arguments, at| arguments.letter(at)
     }
     kind! {
         /// A direction of any length, or a letter.
         Axis "Axis" [[S; 3]] &'static str,
         |letter| std::array::from_fn(|k| S::from_f64(f64::from(k == coordinate(letter)))),
-        |given, at| given.axis(at)
+        |arguments, at| arguments.axis(at)
     }
     kind! {
         /// A frame of a segment, and its middle.
-        Framed "Frame" [([S; 3], Frame)] Never, |never| match never {}, |given, at| given.frame(at)
+        Framed "Frame" [([S; 3], Frame)] Never, |never| match never {}, |arguments, at| arguments.frame(at)
     }
     kind! {
         /// The bark below a segment.
-        Barked "Bark" [Bark] Never, |never| match never {}, |given, at| given.bark(at)
+        Barked "Bark" [Bark] Never, |never| match never {}, |arguments, at| arguments.bark(at)
     }
     kind! {
         /// The vertices of a mesh, and its faces, which are the next parameter.
-        Vertices "Any" [Arc<TriMesh>] Never, |never| match never {}, |given, at| given.mesh(at)
+        Vertices "Any" [Arc<TriMesh>] Never, |never| match never {}, |arguments, at| arguments.mesh(at)
     }
     kind! {
         /// The faces of a mesh, which were read with its vertices.
@@ -279,12 +279,12 @@ pub mod kinds {
     kind! {
         /// A colour.
         Color "Color" [[f32; 3]] Never, |never| match never {},
-        |given, at| Ok(given.three(at)?.map(|part| part.value() as f32))
+        |arguments, at| Ok(arguments.three(at)?.map(|part| part.value() as f32))
     }
     kind! {
         /// A number from 0 to 1.
-        Share "float" [f32] Never, |never| match never {}, |given, at| {
-            let share = given.real(at)?;
+        Share "float" [f32] Never, |never| match never {}, |arguments, at| {
+            let share = arguments.real(at)?;
             let _ = share > S::from_f64(1.0);
             Ok(signed(share).value() as f32)
         }
@@ -302,8 +302,8 @@ pub mod kinds {
         const OPTIONAL: bool = true;
 
         #[inline]
-        fn read<S: Scalar, A: Arguments<S>>(given: &A, at: usize) -> Result<Self::Of<S>, A::Fault> {
-            if given.is_given(at) { K::read(given, at).map(Some) } else { Ok(None) }
+        fn read<S: Scalar, A: Arguments<S>>(arguments: &A, at: usize) -> Result<Self::Of<S>, A::Fault> {
+            if arguments.is_given(at) { K::read(arguments, at).map(Some) } else { Ok(None) }
         }
 
         fn default<S: Scalar>(never: Never) -> Self::Of<S> {
@@ -312,7 +312,7 @@ pub mod kinds {
     }
 }
 
-/// The looks that a declaration of a word can end in.
+/// The looks at the end of a declaration.
 pub mod looks {
     use super::kinds::{Color, Kind, Length, Share};
     use super::{Arguments, Look, Parameter, Scalar};
@@ -324,11 +324,11 @@ pub mod looks {
         optional::<Share>("roughness", "From 0 (a mirror) to 1 (chalk); that of the palette when left out.");
     const BEVEL: Parameter = optional::<Length>("bevel", "Width of the bevelled edges, drawn only.");
 
-    /// Of a flat shape.
+    /// The look of a flat shape.
     pub const COLORED: &[Parameter] = &[COLOR];
-    /// Of a solid without edges to round.
+    /// The look of a solid without edges to round.
     pub const PAINTED: &[Parameter] = &[COLOR, METALNESS, ROUGHNESS];
-    /// Of a solid with edges.
+    /// The look of a solid with edges.
     pub const BEVELLED: &[Parameter] = &[BEVEL, COLOR, METALNESS, ROUGHNESS];
 
     const fn optional<K: Kind>(name: &'static str, doc: &'static str) -> Parameter {
@@ -338,32 +338,32 @@ pub mod looks {
     /// The look in a call, from the place of its first parameter on.
     ///
     /// # Errors
-    /// That of an argument of another kind.
+    /// The fault of an argument of another kind.
     #[inline]
     pub fn read<S: Scalar, A: Arguments<S>>(
-        given: &A,
+        arguments: &A,
         looks: &'static [Parameter],
         mut at: usize,
     ) -> Result<Look, A::Fault> {
         let mut look = Look::default();
         if looks.len() == BEVELLED.len() {
-            look.bevel = <Option<Length>>::read(given, at)?.map(Scalar::value);
+            look.bevel = <Option<Length>>::read(arguments, at)?.map(Scalar::value);
             at += 1;
         }
-        look.color = <Option<Color>>::read(given, at)?;
+        look.color = <Option<Color>>::read(arguments, at)?;
         if looks.len() > 1 {
-            look.metalness = <Option<Share>>::read(given, at + 1)?;
-            look.roughness = <Option<Share>>::read(given, at + 2)?;
+            look.metalness = <Option<Share>>::read(arguments, at + 1)?;
+            look.roughness = <Option<Share>>::read(arguments, at + 2)?;
         }
         Ok(look)
     }
 }
 
-/// Declares a word: its name in the language, the type of its calls, its parameters, and the look that it ends in.
+/// Declares a word: its name in the language, the type of its calls, its parameters, and its look.
 ///
 /// ```text
 /// word! {
-///     /// What it makes: the first sentences of the manual.
+///     /// The first sentences of the manual.
 ///     "ball" Ball {
 ///         /// Its middle.
 ///         center: Point,
@@ -398,7 +398,7 @@ macro_rules! word {
                     default: if <$kind as $crate::solids::word::kinds::Kind>::OPTIONAL {
                         Some("None")
                     } else {
-                        given!($(stringify!($default))?)
+                        default!($(stringify!($default))?)
                     },
                     doc: concat!($($about, "\n"),*),
                 }),*],
@@ -406,14 +406,14 @@ macro_rules! word {
             };
 
             #[inline]
-            fn read<A: $crate::solids::word::Arguments<S>>(given: &A) -> Result<Self, A::Fault> {
+            fn read<A: $crate::solids::word::Arguments<S>>(arguments: &A) -> Result<Self, A::Fault> {
                 let mut at = 0;
                 $(
-                    let default = given!($($default)?);
-                    let $field = $crate::solids::word::kinds::read_or::<$kind, S, A>(given, at, default)?;
+                    let default = default!($($default)?);
+                    let $field = $crate::solids::word::kinds::read_or::<$kind, S, A>(arguments, at, default)?;
                     at += 1;
                 )*
-                let look = $crate::solids::word::looks::read(given, $crate::solids::word::looks::$look, at)?;
+                let look = $crate::solids::word::looks::read(arguments, $crate::solids::word::looks::$look, at)?;
                 Ok($word { $($field,)* look })
             }
 
@@ -424,8 +424,8 @@ macro_rules! word {
     };
 }
 
-/// `Some` of what is there.
-macro_rules! given {
+/// `Some` of a token, or `None` without one.
+macro_rules! default {
     () => {
         None
     };

@@ -1,4 +1,4 @@
-//! A camera: its position, the point it looks at, its upward direction, and its lens.
+//! Cameras: position, the point that they look at, upward direction, and lens.
 //!
 //! Right-handed. A picture's rows run from its top, columns from its left; the ray of a pixel goes through the
 //! pixel's middle. Widths follow from the picture's own proportions.
@@ -7,22 +7,22 @@ use super::rays::{Projection, Ray, Rays};
 use crate::error::GeomError;
 use crate::vector::Vec3;
 
-/// Most pixels of a picture to match.
+/// The most pixels of a picture to match.
 pub const MOST_PIXELS: usize = 1 << 24;
 
 /// The lens of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lens {
-    /// From one point.
+    /// Rays from one point.
     Perspective {
         /// Vertical field of view, radians, between 0 and pi.
         fov: f64,
-        /// What is nearer than this along the view is not seen, scene units.
+        /// Distance along the view from which the camera sees, scene units.
         near: f64,
     },
-    /// Parallel, from the plane across the view through the camera's place.
+    /// Parallel rays from the plane across the view through the camera's position.
     Orthographic {
-        /// Of what the picture shows, scene units.
+        /// Height of the picture, scene units.
         height: f64,
     },
 }
@@ -35,16 +35,16 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A camera at `position` that has `look_at` in the middle of its picture and `up` upwards.
+    /// A camera at `position` with `look_at` in the middle of its picture and `up` upwards.
     ///
     /// # Errors
     /// `bad-camera` when a number is not finite, `look_at` is the camera's position, `up` is the direction of view,
     /// or the lens sees nothing.
     pub fn new(position: Vec3, look_at: Vec3, up: Vec3, lens: Lens) -> Result<Camera, GeomError> {
         let bad = |message: String| GeomError::new("bad-camera", message);
-        for (what, v) in [("position", position), ("look_at", look_at), ("up", up)] {
+        for (name, v) in [("position", position), ("look_at", look_at), ("up", up)] {
             if !v.is_finite() {
-                return Err(bad(format!("{what} is {:?}, expected finite numbers", v.to_array())));
+                return Err(bad(format!("{name} is {:?}, expected finite numbers", v.to_array())));
             }
         }
         let Some(forward) = (look_at - position).unit() else {
@@ -77,7 +77,7 @@ impl Camera {
         Ok(Camera { projection, lens })
     }
 
-    /// How points of space fall on the picture's plane.
+    /// The projection of points of space to the picture's plane.
     pub fn projection(&self) -> &Projection {
         &self.projection
     }

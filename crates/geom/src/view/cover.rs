@@ -1,8 +1,8 @@
-//! Which rays meet a shape: one bit for each ray, word by word, words without a bit left out.
+//! The rays that meet a shape: one bit for each ray, word by word, without empty words.
 //!
 //! The tree of rays is visited once for each convex piece: a solid, or a triangle of a mesh. Boxes of rays outside of
-//! the outline are left, those inside are taken whole, and only bundles on its border are looked at ray by ray. So
-//! the cost is that of the shape's own pixels.
+//! the outline are skipped, and boxes inside are taken whole. Only bundles on its border are tested ray by ray. So the cost
+//! grows with the pixels of the shape.
 
 use super::outline::{Checks, Outline, Outliner};
 use super::rays::{Node, Rays};
@@ -31,18 +31,18 @@ impl Cover {
         })
     }
 
-    /// Words that come once each, ascending.
+    /// A cover of ascending, distinct words.
     pub(crate) fn in_order(words: Vec<(u32, u64)>) -> Cover {
         Cover(words)
     }
 
-    /// Words may have come several times and in any order.
+    /// A cover of words in any order, which may be several for a number.
     pub(crate) fn settled(mut words: Vec<(u32, u64)>) -> Cover {
         words.sort_unstable_by_key(|(word, _)| *word);
-        words.dedup_by(|next, kept| {
-            let same = next.0 == kept.0;
+        words.dedup_by(|next, last| {
+            let same = next.0 == last.0;
             if same {
-                kept.1 |= next.1;
+                last.1 |= next.1;
             }
             same
         });
@@ -60,7 +60,7 @@ impl Rays {
             self.take(outline, &mut words);
             pieces += 1;
         });
-        // The words of one piece are in order.
+        // The words of a single piece are in order.
         if pieces == 1 { Cover(words) } else { Cover::settled(words) }
     }
 
@@ -70,7 +70,7 @@ impl Rays {
         let mut outliner = self.outliner();
         for corners in mesh.corners() {
             outliner.of_triangle(&corners, |outline| self.take(outline, &mut words));
-            // Not more than a few words for each bundle at any time, however many triangles there are.
+            // At any time there are at most a few words for each bundle, for any number of triangles.
             if words.len() > 8 * self.words() + 1024 {
                 words = Cover::settled(std::mem::take(&mut words)).0;
             }
@@ -78,7 +78,7 @@ impl Rays {
         Cover::settled(words)
     }
 
-    /// The rays that meet one triangle.
+    /// The rays that meet a triangle.
     pub(super) fn meeting_triangle(&self, corners: &[crate::vector::Vec3; 3]) -> Cover {
         let mut words = Vec::new();
         self.outliner().of_triangle(corners, |outline| self.take(outline, &mut words));

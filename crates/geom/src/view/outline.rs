@@ -1,9 +1,9 @@
-//! A convex piece of a shape as it falls on the plane of a family of rays: a convex polygon, and how deep it lies.
+//! Outlines: the projection of a convex piece of a shape to the plane of a family of rays, a convex polygon with a depth.
 //!
-//! A point lies in the polygon when it is on the inner side of every edge, border included. An edge is kept with its
-//! ends in one order for both directions, so that two pieces that share an edge leave no gap between them, to the last
-//! bit. A ray that begins beside the piece or beyond it is detected by planes: its line meets the piece, so the ray
-//! does when its start is behind every plane that faces along the ray.
+//! A point lies in the polygon when it is on the inner side of every edge, border included. The order of the ends
+//! of an edge is the same for both directions, so that two pieces that share an edge leave no gap between them, to the last
+//! bit. Planes decide about a ray that begins in the piece or beyond it: if its line meets the piece, then the ray does when
+//! its start is behind every plane that faces along the ray.
 
 use super::rays::{BUNDLE, Bundle, Node, Projection, ROW};
 use crate::convex::Convex;
@@ -12,12 +12,12 @@ use crate::vector::Vec3;
 use std::cell::OnceCell;
 use wide::f64x4;
 
-/// Most edges of one outline: one bit for each. Larger polygons are cut into fans.
+/// The most edges of an outline: one bit for each. Larger polygons are cut into fans.
 pub const MOST_EDGES: usize = 64;
 
 /// An edge: inside is where `cross(along, p - a)` is not negative.
 ///
-/// That is where the first of the product's two terms, a function of the point's v, is not below the second, of its u: a
+/// There the first of the product's two terms, a function of the point's v, is not below the second, a function of its u. A
 /// difference of numbers is never rounded to the other side of zero.
 #[derive(Clone, Copy, Debug, Default)]
 struct Edge {
@@ -26,9 +26,9 @@ struct Edge {
 }
 
 impl Edge {
-    /// From one corner of a polygon to the next, counter-clockwise.
+    /// The edge from a corner of a polygon to the next, counter-clockwise.
     fn new(from: [f64; 2], to: [f64; 2]) -> Edge {
-        // Its ends in one order for both directions, and then turned by a sign, which is exact.
+        // The ends have one order for both directions; the sign that turns the edge is exact.
         let (a, b, sign) =
             if (from[0], from[1]) <= (to[0], to[1]) { (from, to, 1.0) } else { (to, from, -1.0) };
         Edge { a, along: [sign * (b[0] - a[0]), sign * (b[1] - a[1])] }
@@ -43,7 +43,7 @@ struct Four {
 }
 
 impl Four {
-    /// Up to four edges; those that are left have everything on their inner side.
+    /// Up to four edges. Everything is on the inner side of missing edges.
     fn new(edges: &[Edge]) -> Four {
         let of = |k: usize| edges.get(k).copied().unwrap_or_default();
         let lanes = |f: &dyn Fn(Edge) -> f64| f64x4::from([f(of(0)), f(of(1)), f(of(2)), f(of(3))]);
@@ -53,7 +53,7 @@ impl Four {
         }
     }
 
-    /// The edges that have a point of a box on their inner side, and those that have the whole box there.
+    /// The edges with a point of a box on their inner side, and the edges with the whole box there.
     #[inline]
     fn sides_of(&self, [u, v]: &[[f64; 2]; 2]) -> (u32, u32) {
         let of_v = v.map(|v| self.along[0] * (f64x4::splat(v) - self.a[1]));
@@ -69,18 +69,18 @@ impl Four {
 pub(super) struct Checks {
     /// Edges that cut the node's box, one bit for each.
     edges: u64,
-    /// Rays may begin inside of the piece or beyond it.
+    /// True if rays may begin inside of the piece or beyond it.
     starts: bool,
 }
 
 impl Checks {
-    /// No check remains: every ray meets the piece.
+    /// True when no check remains: every ray meets the piece.
     pub fn is_empty(&self) -> bool {
         self.edges == 0 && !self.starts
     }
 }
 
-/// What an outline is of.
+/// The piece of an outline.
 #[derive(Clone, Copy)]
 enum Piece<'a> {
     Convex(&'a Convex<'a>),
@@ -96,7 +96,7 @@ pub(super) struct Outline<'a> {
     low: [f64; 2],
     high: [f64; 2],
     depth: [f64; 2],
-    /// Normals that face along the rays, with how far the piece reaches in their direction; once a ray needs them.
+    /// Normals that face along the rays, and the reach of the piece in their direction, computed at the first use.
     planes: OnceCell<Vec<(Vec3, f64)>>,
 }
 
@@ -107,7 +107,7 @@ impl<'a> Outline<'a> {
         Outline { piece, projection, edges, fours, low, high, depth, planes }
     }
 
-    /// Becomes the polygon with these corners, counter-clockwise.
+    /// Sets the polygon by its corners, counter-clockwise.
     fn set_polygon(&mut self, polygon: &[[f64; 2]]) {
         (self.low, self.high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         self.edges.clear();
@@ -123,7 +123,7 @@ impl<'a> Outline<'a> {
         self.fours.extend(self.edges.chunks(4).map(Four::new));
     }
 
-    /// All checks.
+    /// The checks of the whole outline.
     pub fn all_checks(&self) -> Checks {
         let edges = if self.edges.len() == MOST_EDGES { u64::MAX } else { (1 << self.edges.len()) - 1 };
         Checks { edges, starts: !self.projection.perspective }
@@ -212,7 +212,7 @@ impl Edge {
         })
     }
 
-    /// The same for rows of rays that have the same u each: a product for each row and each column, not for each ray.
+    /// The rays of a bundle on the inner side, if it has rows and columns: a product for each of them, not for each ray.
     fn inside_raster(&self, bundle: &Bundle) -> u64 {
         let [u, v] = &bundle.at;
         let from = f64x4::splat(self.a[0]);
@@ -236,7 +236,7 @@ fn bits_of(four: impl Fn(usize) -> u32) -> u64 {
     (0..BUNDLE / 4).fold(0, |bits, k| bits | u64::from(four(k)) << (4 * k))
 }
 
-/// Calls `each` with the outlines of convex pieces. What it needs on the way is allocated once for many.
+/// A maker of the outlines of convex pieces. Its buffers serve many pieces.
 pub(super) struct Outliner<'a> {
     projection: &'a Projection,
     near: Option<f64>,
@@ -245,19 +245,19 @@ pub(super) struct Outliner<'a> {
 }
 
 impl<'a> Outliner<'a> {
-    /// For a projection, and rays that begin at the depth `near`, where there is one.
+    /// An outliner for a projection, and rays that begin at the depth `near`, if it is the same for all.
     pub fn new(projection: &'a Projection, near: Option<f64>) -> Outliner<'a> {
         Outliner { projection, near, fallen: Vec::new(), polygon: Vec::new() }
     }
 
-    /// The outlines of a convex solid: one, or several that share edges when it has very many.
+    /// Calls `each` with the outline of a convex solid, or with several that share edges if it has very many edges.
     pub fn of_convex(&mut self, convex: &Convex<'_>, each: impl FnMut(&Outline<'_>)) {
         let corners = convex.corners();
         let edges = convex.topology().edges.iter().map(|[a, b]| [corners[*a as usize], corners[*b as usize]]);
         self.outlines(Piece::Convex(convex), corners, edges, each);
     }
 
-    /// The outline of a triangle, if it is not seen edge-on.
+    /// Calls `each` with the outline of a triangle, unless it is edge-on.
     pub fn of_triangle(&mut self, corners: &[Vec3; 3], each: impl FnMut(&Outline<'_>)) {
         let [a, b, c] = *corners;
         self.outlines(Piece::Triangle(corners), corners, [[a, b], [b, c], [c, a]].into_iter(), each);
@@ -280,12 +280,12 @@ impl<'a> Outliner<'a> {
                 if depth[1] < near {
                     return;
                 }
-                let seen = |p: &Vec3| projection.depth(*p) >= near;
-                fallen.extend(corners.iter().filter(|p| seen(p)).map(|p| projection.fall(*p)));
+                let is_ahead = |p: &Vec3| projection.depth(*p) >= near;
+                fallen.extend(corners.iter().filter(|p| is_ahead(p)).map(|p| projection.fall(*p)));
                 if depth[0] < near {
-                    // Part of it is behind the camera: what is in front ends where edges cross the near plane.
-                    fallen.extend(edges.filter(|[a, b]| seen(a) != seen(b)).map(|[a, b]| {
-                        let (a, b) = if seen(&a) { (a, b) } else { (b, a) };
+                    // A part is behind the camera: the rest ends where edges cross the near plane.
+                    fallen.extend(edges.filter(|[a, b]| is_ahead(a) != is_ahead(b)).map(|[a, b]| {
+                        let (a, b) = if is_ahead(&a) { (a, b) } else { (b, a) };
                         let (from, to) = (projection.depth(a), projection.depth(b));
                         projection.fall_at(a + (b - a) * ((from - near) / (from - to)), near)
                     }));

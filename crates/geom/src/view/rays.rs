@@ -1,29 +1,29 @@
-//! A family of rays in bundles of 64, ordered so that near rays are in one bundle, in a tree over their plane.
+//! Families of rays in bundles of 64, ordered so that near rays are in one bundle, in a tree over their plane.
 //!
-//! The rays of a camera meet at its position, those to a light are parallel. Each projects to a point of a
+//! The rays of a camera meet at its position; rays to a light are parallel. Each projects to a point of a
 //! plane, and a convex solid to a convex polygon: a ray's line meets the solid when the point lies in the polygon. A
 //! bundle is a word of bits in every set of rays; 64 bundles make a tile.
 
 use crate::vector::Vec3;
 use wide::f64x4;
 
-/// Rays of one bundle.
+/// The number of rays of a bundle.
 pub const BUNDLE: usize = 64;
-/// Rays of one row, where the rays of a bundle are in rows.
+/// The number of rays of a row, if the rays of a bundle are in rows.
 pub(super) const ROW: usize = 8;
 
 /// The projection of points of space to the plane of a family of rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection {
-    /// Where depth is zero: the eye, or any point.
+    /// A point of depth zero: the eye, or any point.
     pub origin: Vec3,
-    /// Unit; first coordinate of the plane.
+    /// Unit direction of the first coordinate of the plane.
     pub right: Vec3,
-    /// Unit; second coordinate of the plane.
+    /// Unit direction of the second coordinate of the plane.
     pub up: Vec3,
-    /// Unit; the direction in which depth grows.
+    /// Unit direction in which depth grows.
     pub forward: Vec3,
-    /// Rays leave the origin, so that plane coordinates are divided by depth; they are parallel otherwise.
+    /// True if rays leave the origin, so that plane coordinates are divided by depth; otherwise rays are parallel.
     pub perspective: bool,
 }
 
@@ -34,7 +34,7 @@ impl Projection {
         self.forward.dot(p - self.origin)
     }
 
-    /// Where a point falls. In perspective its depth must be positive.
+    /// The projection of a point. In perspective its depth must be positive.
     #[inline]
     pub fn fall(&self, p: Vec3) -> [f64; 2] {
         let q = p - self.origin;
@@ -47,7 +47,7 @@ impl Projection {
         }
     }
 
-    /// Where a point at a known depth falls.
+    /// The projection of a point at a known depth.
     #[inline]
     pub fn fall_at(&self, p: Vec3, depth: f64) -> [f64; 2] {
         let q = p - self.origin;
@@ -60,31 +60,31 @@ impl Projection {
         if self.perspective { self.forward + self.right * at[0] + self.up * at[1] } else { self.forward }
     }
 
-    /// The point at a depth that falls on a point of the plane.
+    /// The point at a depth whose projection is a point of the plane.
     pub fn point(&self, at: [f64; 2], depth: f64) -> Vec3 {
         let spread = if self.perspective { depth } else { 1.0 };
         self.origin + self.forward * depth + self.right * (at[0] * spread) + self.up * (at[1] * spread)
     }
 }
 
-/// One ray.
+/// A ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Its point on the plane.
+    /// The point on the plane.
     pub at: [f64; 2],
-    /// Where it begins, world space.
+    /// The start, world space.
     pub start: Vec3,
-    /// Its pixel.
+    /// The number of the pixel.
     pub pixel: u32,
 }
 
-/// Sixty-four rays, coordinate by coordinate; those beyond `live` repeat one of the others.
+/// Sixty-four rays, coordinate by coordinate; rays beyond `live` repeat another.
 #[derive(Clone, Debug)]
 pub(super) struct Bundle {
     pub at: [Coordinates; 2],
     pub start: [Coordinates; 3],
     pub live: u64,
-    /// Eight rows of eight: all rays of a row have the same v, all of a column the same u.
+    /// True for eight rows of eight: the rays of a row have the same v, and the rays of a column the same u.
     pub is_raster: bool,
 }
 
@@ -94,7 +94,7 @@ type Coordinates = [f64x4; BUNDLE / 4];
 /// A box of the plane and the range of depths at which its rays begin, over the bundles `first..first + count`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
-    /// Least and most u and v.
+    /// The least and the largest u and v.
     pub ends: [[f64; 2]; 2],
     pub depth: [f64; 2],
     pub first: u32,
@@ -107,7 +107,7 @@ pub(super) struct Node {
 #[derive(Clone, Debug)]
 pub struct Rays {
     projection: Projection,
-    /// The depth at which all rays begin, where there is one.
+    /// The depth at which all rays begin, if it is the same.
     pub(super) near: Option<f64>,
     pub(super) nodes: Vec<Node>,
     pub(super) bundles: Vec<Bundle>,
@@ -115,7 +115,7 @@ pub struct Rays {
 }
 
 impl Rays {
-    /// The family of `rays`; `near` is the depth at which all of them begin, where there is one.
+    /// The family of `rays`; `near` is the depth at which all of them begin, if it is the same.
     pub fn new(projection: Projection, near: Option<f64>, mut rays: Vec<Ray>) -> Rays {
         let mut family =
             Rays { projection, near, nodes: Vec::new(), bundles: Vec::new(), pixels: Vec::new() };
@@ -146,7 +146,7 @@ impl Rays {
         }
         self.nodes.push(node);
         if rays.len() <= BUNDLE {
-            // Left to right, top to bottom, so that the order of rays is a function of the set of them.
+            // The order from left to right, top to bottom is a function of the set of rays.
             rays.sort_unstable_by_key(|r| r.pixel);
             self.bundles.push(bundle(rays));
             return index as u32;
@@ -170,7 +170,7 @@ impl Rays {
         &self.projection
     }
 
-    /// They are a camera's, one for each pixel of a picture; those to a light begin at different depths.
+    /// True for the rays of a camera, one for each pixel of a picture. Rays to a light begin at different depths.
     pub(crate) fn are_of_camera(&self) -> bool {
         self.near.is_some()
     }

@@ -1,6 +1,6 @@
 //! The points of a receiver that a camera sees, each with its ray to the light.
 //!
-//! They are found once, before a run: the nearest triangle along each pixel's ray. A point is its triangle's
+//! The points are computed once, before a run: the nearest triangle along each pixel's ray. A point is its triangle's
 //! first corner plus shares of two edges, so that a floor at one height has points at exactly that height.
 
 use super::camera::Camera;
@@ -9,7 +9,7 @@ use crate::error::GeomError;
 use crate::mesh::TriMesh;
 use crate::vector::Vec3;
 
-/// Below this sine of the angle between light and surface, the light passes along the surface.
+/// The sine of the angle between light and surface below which the light passes along the surface.
 const GRAZING: f64 = 1e-6;
 
 /// A light from far away.
@@ -34,7 +34,7 @@ impl Light {
         self.direction
     }
 
-    /// How points fall on the plane across the light; depth grows towards the light.
+    /// The projection to the plane across the light; depth grows towards the light.
     pub fn projection(&self) -> Projection {
         let forward = -self.direction;
         let right = forward.any_perpendicular();
@@ -48,7 +48,7 @@ pub fn seen_points(mesh: &TriMesh, camera: &Camera, size: [usize; 2]) -> Vec<Ray
     nearest(mesh, camera, size).into_iter().map(|(ray, _)| ray).collect()
 }
 
-/// The same with the triangle's unit normal.
+/// The nearest point of `mesh` on the ray of each pixel that meets it, with the unit normal of its triangle.
 fn nearest(mesh: &TriMesh, camera: &Camera, size: [usize; 2]) -> Vec<(Ray, Vec3)> {
     let rays = camera.rays(size);
     let projection = *camera.projection();
@@ -66,12 +66,12 @@ fn nearest(mesh: &TriMesh, camera: &Camera, size: [usize; 2]) -> Vec<(Ray, Vec3)
             }
         }
     }
-    let seen = hits.into_iter().enumerate().filter_map(|(number, hit)| hit.map(|(_, p, n)| (number, p, n)));
-    seen.map(|(number, start, normal)| (Ray { start, ..rays.ray(number) }, normal)).collect()
+    let points = hits.into_iter().enumerate().filter_map(|(number, hit)| hit.map(|(_, p, n)| (number, p, n)));
+    points.map(|(number, start, normal)| (Ray { start, ..rays.ray(number) }, normal)).collect()
 }
 
-/// Where the line through `start` along `direction` meets the plane of a triangle that it is known to meet: how far
-/// along, and the point, kept inside of the triangle (Moeller & Trumbore 1997).
+/// The distance to the plane of a triangle that the line through `start` along `direction` meets, and the point, clamped to
+/// the triangle (Moeller & Trumbore 1997).
 fn on_triangle([a, b, c]: &[Vec3; 3], start: Vec3, direction: Vec3) -> Option<(f64, Vec3)> {
     let (e, f) = (*b - *a, *c - *a);
     let across = direction.cross(f);
@@ -89,8 +89,8 @@ fn on_triangle([a, b, c]: &[Vec3; 3], start: Vec3, direction: Vec3) -> Option<(f
 /// The rays to the light from the points of `receiver` that the camera sees in a picture of `size`.
 ///
 /// # Errors
-/// `receiver-unseen` when no pixel sees the receiver, `light-grazes` when the light passes along all of it, or
-/// along all that is seen of it.
+/// `receiver-unseen` when no pixel sees the receiver; `light-grazes` when the light passes along the whole receiver, or
+/// along its whole visible part.
 pub fn shadow_rays(
     receiver: &TriMesh,
     camera: &Camera,
@@ -105,8 +105,8 @@ pub fn shadow_rays(
     if receiver.corners().filter_map(|[a, b, c]| (b - a).cross(c - a).unit()).all(grazes) {
         return Err(grazed());
     }
-    let seen = nearest(receiver, camera, size);
-    if seen.is_empty() {
+    let points = nearest(receiver, camera, size);
+    if points.is_empty() {
         let depths = receiver.corners().flatten().map(|p| camera.projection().depth(p));
         let message = if depths.fold(f64::NEG_INFINITY, f64::max) < camera.near() {
             "it is behind the camera"
@@ -115,10 +115,10 @@ pub fn shadow_rays(
         };
         return Err(GeomError::new("receiver-unseen", message));
     }
-    if seen.iter().all(|(_, normal)| grazes(*normal)) {
+    if points.iter().all(|(_, normal)| grazes(*normal)) {
         return Err(grazed());
     }
     let projection = light.projection();
     let toward = |(ray, _): &(Ray, Vec3)| Ray { at: projection.fall(ray.start), ..*ray };
-    Ok(Rays::new(projection, None, seen.iter().map(toward).collect()))
+    Ok(Rays::new(projection, None, points.iter().map(toward).collect()))
 }

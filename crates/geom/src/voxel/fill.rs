@@ -1,4 +1,4 @@
-//! Filling a surface: inside the box of touched cells, empty regions that do not reach its outer layer are filled.
+//! The fill of a surface: inside the box of touched cells, empty regions that do not reach its outer layer are filled.
 //!
 //! Regions are 6-connected. The outside spreads from the outer layer, 64 cells at a time, in sweeps up and down
 //! the rows until nothing changes.
@@ -9,13 +9,13 @@ use crate::intersect::inside::{inside_part, parts};
 use crate::mesh::TriMesh;
 use crate::vector::Vec3;
 
-/// Above this many cells a mesh is cut to the domain before it is filled.
+/// The number of cells above which a mesh is cut to the domain before the fill.
 const MOST_CELLS: f64 = 16_777_216.0;
 
 /// Cells that a closed mesh fills. Cells outside of the grid may be among them; `None` when all are outside.
 ///
-/// A cavity is filled: whatever the outside does not reach is inside, on whichever side its surface faces. The outside reaches
-/// through holes that are wider than a cell.
+/// A cavity is filled: every cell that the outside does not reach is inside, whichever way its surface faces. The outside
+/// reaches through holes that are wider than a cell.
 ///
 /// A mesh that is far larger than the domain is cut to the domain and one layer around it. Regions that reach
 /// the cut are inside when the mesh or one of its parts winds around them.
@@ -55,13 +55,13 @@ fn solid_up_to(most_cells: f64, mesh: &TriMesh, grid: &Grid) -> Option<Bits> {
         // Free cells next to each other have no surface between their middles: one test is enough for a whole region.
         while let Some((word, bit)) = region.first_of_layer_beyond(&outside, &inside) {
             let middle = region.cell(&bits, word, bit).map(|i| i as f64 + 0.5);
-            let known = if inside_part(mesh, &parts, grid.to_world(Vec3::from(middle))) {
+            let side = if inside_part(mesh, &parts, grid.to_world(Vec3::from(middle))) {
                 &mut inside
             } else {
                 &mut outside
             };
-            known[word] |= 1 << bit;
-            region.flood(known);
+            side[word] |= 1 << bit;
+            region.flood(side);
         }
     } else {
         region.flood(&mut outside);
@@ -72,7 +72,7 @@ fn solid_up_to(most_cells: f64, mesh: &TriMesh, grid: &Grid) -> Option<Bits> {
     Some(bits)
 }
 
-/// The cells of a box that no surface touches, and those of them in its outer layer.
+/// The cells of a box that no surface touches, and the cells of its outer layer among them.
 struct Region {
     free: Vec<u64>,
     layer: Vec<u64>,
@@ -81,7 +81,7 @@ struct Region {
 }
 
 impl Region {
-    /// Of the box of `bits`, whose x runs from `first` to `last` (its words may reach farther).
+    /// The region of the box of `bits`, whose x runs from `first` to `last` (its words may reach farther).
     fn new(bits: &Bits, first: i64, last: i64) -> Region {
         let ([ny, nz], columns) = (bits.rows(), bits.columns());
         let mut within = vec![0u64; columns];
@@ -104,8 +104,8 @@ impl Region {
     }
 
     /// A cell of the layer in neither set.
-    fn first_of_layer_beyond(&self, one: &[u64], other: &[u64]) -> Option<(usize, u32)> {
-        let rest = |i: usize| self.layer[i] & !one[i] & !other[i];
+    fn first_of_layer_beyond(&self, inside: &[u64], outside: &[u64]) -> Option<(usize, u32)> {
+        let rest = |i: usize| self.layer[i] & !inside[i] & !outside[i];
         (0..self.layer.len()).find(|i| rest(*i) != 0).map(|i| (i, rest(i).trailing_zeros()))
     }
 
@@ -116,8 +116,8 @@ impl Region {
         [x + (word % columns * 64) as i64 + i64::from(bit), y + (row % ny) as i64, z + (row / ny) as i64]
     }
 
-    /// Spreads `seen` through free cells, 6-connected.
-    fn flood(&self, seen: &mut [u64]) {
+    /// Spreads `reached` through free cells, 6-connected.
+    fn flood(&self, reached: &mut [u64]) {
         let [columns, ny, nz] = self.dims;
         let rows = ny * nz;
         let mut changed = true;
@@ -130,17 +130,17 @@ impl Region {
                 for step in 0..2 * columns {
                     let c = if step < columns { step } else { 2 * columns - 1 - step };
                     let i = row * columns + c;
-                    let mut near = seen[i];
-                    let mut take = |there: bool, j: usize| near |= if there { seen[j] } else { 0 };
+                    let mut near = reached[i];
+                    let mut take = |is_inside: bool, j: usize| near |= if is_inside { reached[j] } else { 0 };
                     take(y > 0, i.wrapping_sub(columns));
                     take(y + 1 < ny, i + columns);
                     take(z > 0, i.wrapping_sub(ny * columns));
                     take(z + 1 < nz, i + ny * columns);
-                    near |= if c > 0 { seen[i - 1] >> 63 } else { 0 };
-                    near |= if c + 1 < columns { seen[i + 1] << 63 } else { 0 };
+                    near |= if c > 0 { reached[i - 1] >> 63 } else { 0 };
+                    near |= if c + 1 < columns { reached[i + 1] << 63 } else { 0 };
                     let all = spread(near & self.free[i], self.free[i]);
-                    changed |= all != seen[i];
-                    seen[i] = all;
+                    changed |= all != reached[i];
+                    reached[i] = all;
                 }
             }
         }
@@ -148,9 +148,9 @@ impl Region {
 }
 
 /// Spreads set bits to both sides through the runs of `free`, in six doublings.
-fn spread(seen: u64, free: u64) -> u64 {
-    let (mut up, mut free_run) = (seen, free);
-    let (mut down, mut back) = (seen, free);
+fn spread(reached: u64, free: u64) -> u64 {
+    let (mut up, mut free_run) = (reached, free);
+    let (mut down, mut back) = (reached, free);
     for shift in [1, 2, 4, 8, 16, 32] {
         up |= free_run & (up << shift);
         free_run &= free_run << shift;

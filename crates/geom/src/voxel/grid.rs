@@ -1,8 +1,8 @@
-//! A grid over a box: the domain of a target, its cells, and the map from world to grid coordinates.
+//! Grids over boxes: the domain of a target, its cells, and the map from world to grid coordinates.
 //!
 //! Grid coordinates count cells: cell `i` is the closed interval `[i, i + 1]`. The domain is the target's box plus
-//! 0.1 scene units on all six sides; the number of cells is the extent divided by the given voxel size, rounded
-//! up, so that cells are a little smaller than given and not cubes.
+//! 0.1 scene units on all six sides. The number of cells is the extent divided by the voxel size, rounded up, so that cells
+//! are a little smaller than the voxel size and no cubes.
 
 use super::cells::CellBox;
 use crate::bounds::Aabb;
@@ -11,7 +11,7 @@ use crate::vector::{Vec3, vec3};
 
 /// Margin around the target on all six sides, scene units.
 pub const PAD: f64 = 0.1;
-/// How far, in cells, a solid may be outside a cell and still touch it.
+/// The distance, in cells, up to which a solid touches a cell.
 pub const TOUCH: f64 = 1e-6;
 const MOST_CELLS: f64 = 268_435_456.0;
 

@@ -1,7 +1,7 @@
-//! Which cells of a grid a solid fills.
+//! The cells of a grid that a solid fills.
 //!
-//! A cell counts as filled when its closed cube meets the closed solid: surface cells are found conservatively, then
-//! what they enclose is filled. Each shape is voxelised and filled alone, so that a union never depends on order
+//! A cell is filled when its closed cube meets the closed solid: surface cells are found conservatively, then enclosed cells
+//! are filled. Each shape is voxelised and filled alone, so that a union never depends on order
 //! (differs: the original's fill sees the accumulated grid).
 //!
 //! - [`grid`]: the domain and its cells; world to grid coordinates
@@ -23,7 +23,7 @@ use surface::Bits;
 /// The cells of a grid that a shape fills.
 #[derive(Clone, Debug)]
 pub struct Voxels {
-    /// The box around them.
+    /// The box around the cells.
     pub cells: CellBox,
     kind: Kind,
 }
@@ -32,9 +32,9 @@ pub struct Voxels {
 enum Kind {
     /// Every cell of the box.
     Block,
-    /// One run of x for each row.
+    /// A run of x for each row.
     Rows(slabs::Rows),
-    /// Any set.
+    /// Any set of cells.
     Bits(Bits),
 }
 
@@ -79,8 +79,8 @@ impl Voxels {
         run(column, first, last)
     }
 
-    /// Cells `64 * column ..` of the rows from `first` to `last` at `z`: that of row `y` is word `y % 8`, others are zero. The rows must lie in
-    /// the box, and among eight that begin at a multiple of eight.
+    /// Cells `64 * column ..` of the rows from `first` to `last` at `z`: row `y` is word `y % 8`, other words are zero. The
+    /// rows must lie in the box, and among eight rows that begin at a multiple of eight.
     #[inline(always)]
     pub fn slab(&self, column: usize, [first, last]: [usize; 2], z: usize) -> [u64; 8] {
         let mut words = [0; 8];

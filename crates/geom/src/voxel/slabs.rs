@@ -14,11 +14,11 @@ use crate::convex::Convex;
 
 const NOTHING: (u32, u32) = (1, 0);
 
-/// The first and last x of each row of a box of cells; nothing when first is above last.
+/// The first and last x of each row of a box of cells. A row is empty when first is above last.
 #[derive(Clone, Debug)]
 pub struct Rows {
     rows: Vec<(u32, u32)>,
-    /// From one y to the next, and from one z to the next: zero where all slices are alike.
+    /// Strides from one y to the next, and from one z to the next: zero where all slices are equal.
     steps: [usize; 2],
 }
 
@@ -30,7 +30,7 @@ impl Rows {
     }
 }
 
-/// A corner: its place along the axis that is cut, along the other of y and z, and along x.
+/// A corner: its coordinates along the cut axis, along the other of y and z, and along x.
 type Corner = [f64; 3];
 
 /// The rows of `cells`, which must be the cells of the solid's box.
@@ -73,14 +73,14 @@ pub fn rows(convex: &Convex<'_>, grid: &Grid, cells: &CellBox) -> Rows {
     Rows { rows, steps: if outer == 1 { [along_outer, 1] } else { [1, along_outer] } }
 }
 
-/// Whether the first coordinate has no more than two values.
+/// True when the first coordinate has at most two values.
 fn has_two_heights(corners: &[Corner]) -> bool {
     let end = corners[0][0];
     let mut others = corners.iter().map(|p| p[0]).filter(|at| *at != end);
     others.next().is_none_or(|other| others.all(|at| at == other))
 }
 
-/// Where a prism along the first coordinate has an end; `None` for other solids.
+/// The ends of a prism along the first coordinate; `None` for other solids.
 fn end_of_prism(corners: &[Corner], convex: &Convex<'_>) -> Option<f64> {
     let straight = |&[a, b]: &[u32; 2]| {
         let (a, b) = (corners[a as usize], corners[b as usize]);
@@ -90,7 +90,7 @@ fn end_of_prism(corners: &[Corner], convex: &Convex<'_>) -> Option<f64> {
     is_prism.then_some(corners[0][0])
 }
 
-/// Points whose hull is the solid between two planes across the first coordinate, seen along it.
+/// Points whose hull is the slice of the solid between two planes across the first coordinate, seen along it.
 fn slice_of(corners: &[Corner], convex: &Convex<'_>, (low, high): (f64, f64), slice: &mut Vec<[f64; 2]>) {
     slice.clear();
     slice.extend(corners.iter().filter(|p| low <= p[0] && p[0] <= high).map(|p| [p[1], p[2]]));
@@ -109,7 +109,7 @@ fn slice_of(corners: &[Corner], convex: &Convex<'_>, (low, high): (f64, f64), sl
     }
 }
 
-/// Above zero where the path from `a` by `b` to `p` turns towards higher x, below where it turns away.
+/// The turn of the path from `a` by `b` to `p`: above zero towards higher x, below zero away from it.
 #[inline]
 fn turn(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
@@ -123,7 +123,7 @@ struct Polygon {
 }
 
 impl Polygon {
-    /// Becomes the hull of `points`: those on either side of the line from the lowest to the highest, each side by the
+    /// Sets the sides to the hull of `points`: the points on either side of the line from the lowest to the highest, by the
     /// monotone chain (Andrew 1979).
     fn enclose(&mut self, points: &[[f64; 2]]) {
         let order = |p: &[f64; 2], q: &[f64; 2]| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]));
@@ -144,16 +144,16 @@ impl Polygon {
         for (side, sign) in [(&mut self.left, 1.0), (&mut self.right, -1.0)] {
             side[1..].sort_unstable_by(order);
             side.push(*last);
-            let mut kept = 1;
+            let mut length = 1;
             for at in 1..side.len() {
                 let p = side[at];
-                while kept > 1 && turn(side[kept - 2], side[kept - 1], p) * sign <= 0.0 {
-                    kept -= 1;
+                while length > 1 && turn(side[length - 2], side[length - 1], p) * sign <= 0.0 {
+                    length -= 1;
                 }
-                side[kept] = p;
-                kept += 1;
+                side[length] = p;
+                length += 1;
             }
-            side.truncate(kept);
+            side.truncate(length);
         }
     }
 
@@ -212,7 +212,7 @@ impl<'a> Side<'a> {
         if b[0] == a[0] {
             return b[1];
         }
-        // Kept between the ends: a steep side must not overshoot by rounding.
+        // Clamped to the ends: a steep side must not overshoot by rounding.
         let t = ((v - a[0]) / (b[0] - a[0])).clamp(0.0, 1.0);
         a[1] + t * (b[1] - a[1])
     }

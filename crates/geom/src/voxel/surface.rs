@@ -3,7 +3,7 @@
 //! Triangle against box by separating axes (Akenine-Moeller 2001): the box's three normals, the triangle's, and the
 //! nine products of edges, in grid coordinates where the cell is a unit cube.
 //!
-//! How a flat part was cut into triangles makes no difference, even where they lie over one another (`folds`).
+//! The triangulation of a flat part makes no difference, even where triangles lie over one another (`folds`).
 
 use super::cells::CellBox;
 use super::grid::{Grid, TOUCH};
@@ -62,7 +62,7 @@ impl Bits {
         self.place(x, y, z).is_some_and(|(word, bit)| self.words[word] >> bit & 1 == 1)
     }
 
-    /// Puts a cell into the set; cells outside of the box are left out.
+    /// Puts a cell into the set; cells outside of the box are ignored.
     pub fn set(&mut self, x: i64, y: i64, z: i64) {
         if let Some((word, bit)) = self.place(x, y, z) {
             self.words[word] |= 1 << bit;
@@ -100,8 +100,8 @@ pub(super) fn in_grid(corners: [Vec3; 3], grid: &Grid) -> ([Vec3; 3], [i64; 3], 
     (t, first, last)
 }
 
-/// Sets every cell of `bits` that the surface of `mesh` touches: its triangles, and of flat parts that lie over themselves
-/// what their border encloses.
+/// Sets every cell of `bits` that the surface of `mesh` touches: the cells of its triangles, and the cells that the border of
+/// a flat part that lies over itself encloses.
 pub fn mark(mesh: &TriMesh, grid: &Grid, bits: &mut Bits) {
     let mut folded = vec![false; if mesh.folds().is_empty() { 0 } else { mesh.triangles().len() }];
     mesh.folds().iter().flat_map(|fold| &fold.triangles).for_each(|i| folded[*i as usize] = true);
@@ -137,8 +137,8 @@ fn visit(
     }
 }
 
-/// Sets the cells of a flat part by its border. Where a cell does not touch it, the border winds around all of the part's
-/// plane in the cell as often as around one point there.
+/// Sets the cells of a flat part by its border. In a cell that the border does not touch, it winds around every point of the
+/// part's plane equally often.
 fn mark_fold(mesh: &TriMesh, fold: &Fold, grid: &Grid, bits: &mut Bits) {
     let at = |v: u32| mesh.vertices()[v as usize];
     for [a, b] in &fold.border {
@@ -158,25 +158,25 @@ fn mark_fold(mesh: &TriMesh, fold: &Fold, grid: &Grid, bits: &mut Bits) {
     }
 }
 
-/// A point of a triangle in a cell, both in grid coordinates: the mean of the corners of what is left of it (Sutherland &
+/// A point of a triangle in a cell, in grid coordinates: the mean of the corners of the clipped triangle (Sutherland &
 /// Hodgman 1974).
 fn point_in(t: &[Vec3; 3], cell: [i64; 3]) -> Option<Vec3> {
     let mut corners = t.to_vec();
     for a in 0..3 {
         for (sign, at) in [(1.0, cell[a] as f64), (-1.0, -(cell[a] + 1) as f64)] {
             let inside = |p: &Vec3| sign * p[a] - at + PLANE;
-            let mut left = Vec::with_capacity(corners.len() + 1);
+            let mut clipped = Vec::with_capacity(corners.len() + 1);
             for (k, p) in corners.iter().enumerate() {
                 let q = &corners[(k + 1) % corners.len()];
-                let (here, there) = (inside(p), inside(q));
-                if here >= 0.0 {
-                    left.push(*p);
+                let (from, to) = (inside(p), inside(q));
+                if from >= 0.0 {
+                    clipped.push(*p);
                 }
-                if (here >= 0.0) != (there >= 0.0) {
-                    left.push(*p + (*q - *p) * (here / (here - there)));
+                if (from >= 0.0) != (to >= 0.0) {
+                    clipped.push(*p + (*q - *p) * (from / (from - to)));
                 }
             }
-            corners = left;
+            corners = clipped;
         }
     }
     let count = corners.len() as f64;
@@ -214,7 +214,7 @@ impl Axis {
 }
 
 /// The triangle's normal and the nine products of its edges with the cube's (the cube's own normals are the box
-/// of candidate cells). Directions that vanish separate nothing and are left out.
+/// of candidate cells). Directions that vanish separate nothing and are skipped.
 pub(super) fn separating_axes(t: &[Vec3; 3]) -> Vec<Axis> {
     let edges = [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let products = edges.iter().flat_map(|e| Vec3::AXES.map(|a| a.cross(*e)));

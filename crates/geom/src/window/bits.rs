@@ -1,14 +1,14 @@
-//! One bit for each cell of a page, in tiles that copies share.
+//! Bits of a page, one for each cell, in tiles that copies share.
 
 use crate::bricks::brick::Plane;
 use std::sync::Arc;
 
-/// Words of bits. Cloning shares all tiles; changing one copies that tile only, and only when it is shared.
+/// Words of bits. Cloning shares all tiles; a change copies a tile only if it is shared.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Bits(Arc<Vec<Arc<Plane>>>);
 
 impl Bits {
-    /// All zero, for as many words.
+    /// Zeros for a number of words.
     pub fn new(words: usize) -> Bits {
         let empty = Arc::new([0; 64]);
         Bits(Arc::new((0..words.div_ceil(64)).map(|_| empty.clone()).collect()))

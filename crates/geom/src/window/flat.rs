@@ -8,19 +8,19 @@
 //! sum of a row = bits + (left - 1) first bit + (right - 1) last bit
 //! ```
 //!
-//! Nothing is kept beside the bits of the sketch, so nothing can become stale.
+//! A window reads the bits of the sketch and stores nothing, so nothing can become stale.
 
 use super::{Place, WindowForm, WindowPoint};
 use crate::plane::Page;
 use std::ops::Range;
 
-/// Most columns that are counted at once.
+/// The most columns that are counted at once.
 const STRIP: usize = 64;
 
 /// A place on a page, in pixels from its upper left corner: to the right and down.
 pub(crate) struct Spot {
     pub at: [f64; 2],
-    /// One world unit along the first and the second direction of the window.
+    /// A world unit along the first and the second direction of the window.
     pub ahead: [f64; 2],
     pub left: [f64; 2],
     /// Columns and rows of a world unit.
@@ -28,7 +28,7 @@ pub(crate) struct Spot {
 }
 
 impl Spot {
-    /// Of a place on a page; along `up` when it looks along z.
+    /// The spot of a place on a page; along `up` when it looks along z.
     pub fn on(page: &Page, place: &Place) -> Spot {
         let [wide, tall] = page.pixel();
         let flat = |v: crate::Vec3| Some(v.x.hypot(v.y)).filter(|n| *n > 1e-9).map(|n| [v.x / n, v.y / n]);
@@ -47,7 +47,7 @@ impl Spot {
 struct Cell {
     low: [f64; 2],
     high: [f64; 2],
-    /// Of the whole cell, with what is outside of the page.
+    /// Area of the whole cell, with its part outside of the page.
     area: f64,
 }
 
@@ -68,8 +68,8 @@ impl Cell {
         (self.high[0] - self.low[0]) * (self.high[1] - self.low[1])
     }
 
-    /// Area of the pixels of both channels in it. `most` is as many rows as a cell of this size has at most: all cells
-    /// of a ring take the same steps, which a processor foresees.
+    /// Area of the pixels of both channels in the part. `most` is the most rows of a cell of this size: all cells of a ring
+    /// take the same steps, which a processor predicts.
     #[inline(always)]
     fn sums(&self, bits: &Part, most: usize) -> [f64; 2] {
         let mut sums = [0.0; 2];
@@ -79,7 +79,7 @@ impl Cell {
         let ([left, top], [right, bottom]) = (self.low, self.high);
         let (mut first, end) = (floor(left), ceil(right));
         let (first_row, last_row) = (floor(top), ceil(bottom) - 1);
-        // What of the first and of the last row is not in the cell; the two may be one row.
+        // The parts of the first and the last row outside of the cell; the two may be the same row.
         let rows = [top - first_row as f64, (last_row + 1) as f64 - bottom];
         while first < end {
             let count = (end - first).min(STRIP);
@@ -101,7 +101,7 @@ impl Cell {
     }
 }
 
-/// Numbers of bits of each channel: of all, and in the first and in the last column.
+/// Counts of bits of each channel: in all columns, in the first and in the last.
 #[derive(Clone, Copy, Default)]
 struct Counts {
     all: [u32; 2],
@@ -119,12 +119,12 @@ impl Counts {
         }
     }
 
-    /// Without parts of the first and the last column.
+    /// The count without parts of the first and the last column.
     #[inline(always)]
     fn less(&self, [first, last]: [f64; 2]) -> [f64; 2] {
         let lanes = |lanes: [u32; 2]| lanes.map(|lane| f64::from(lane as i32));
-        let (all, one, other) = (lanes(self.all), lanes(self.first), lanes(self.last));
-        [0, 1].map(|channel| all[channel] - first * one[channel] - last * other[channel])
+        let (all, left, right) = (lanes(self.all), lanes(self.first), lanes(self.last));
+        [0, 1].map(|channel| all[channel] - first * left[channel] - last * right[channel])
     }
 }
 
@@ -134,7 +134,7 @@ fn floor(x: f64) -> usize {
     x as i32 as usize
 }
 
-/// The smallest integer that is not below it.
+/// The smallest integer that is not below a number of pixels.
 #[inline(always)]
 fn ceil(x: f64) -> usize {
     let floor = x as i32;
@@ -144,13 +144,13 @@ fn ceil(x: f64) -> usize {
 /// The words of both channels in a part of a page.
 struct Part {
     words: Vec<[u64; 2]>,
-    /// The first word of its rows and the first row.
+    /// The first word of the rows, and the first row.
     first: [usize; 2],
     /// Words in a row.
     across: usize,
 }
 
-/// Some columns of it.
+/// Some columns of the part.
 struct Strip<'a> {
     words: &'a [[u64; 2]],
     across: usize,
@@ -198,7 +198,7 @@ impl Strip<'_> {
         counts
     }
 
-    /// Its bits of a row, channel by channel.
+    /// The bits of a row, channel by channel.
     #[inline(always)]
     fn row(&self, row: usize) -> [u64; 2] {
         let word = (row - self.first_row) * self.across;
@@ -211,8 +211,8 @@ impl Strip<'_> {
     }
 }
 
-/// Appends both channels of every point: shares of the cell that `words(column / 64, row)` has, and, in the second,
-/// `beyond` times the share that is outside of a page of `size` (columns, rows).
+/// Appends both channels of every point: shares of the cell in `words(column / 64, row)`, and in the second channel also
+/// `beyond` times the share outside of a page of `size` (columns, rows).
 pub(crate) fn look(
     form: &WindowForm,
     spot: &Spot,

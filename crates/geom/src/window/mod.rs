@@ -1,17 +1,17 @@
-//! Windows: what a sketch shows around a place, as a short list of numbers.
+//! Windows: the view of a sketch around a place, as a short list of numbers.
 //!
-//! A guide looks at a scene through windows: points around the place where the model works, near ones close together
-//! and small, far ones apart and large. They are given in the frame of the place, so that a scene and its target turned
-//! about together show the same. Every point shows two numbers of the *cell* around it, a square (a cube in space)
+//! A guide looks at a scene through windows: points around the place where the model works. Near points are close together
+//! and small, far points apart and large. Points are in the frame of the place, so that a turn of a scene with its target
+//! changes no number. Every point shows two numbers of the *cell* around it, a square (a cube in space)
 //! along the axes of the target:
 //!
 //! ```text
-//! uncovered target   share of the cell that the target wants and the scene does not have yet       0 to 1
+//! uncovered target   share of the cell that the target has and the scene does not have yet       0 to 1
 //! uncovered empty    share of the cell that neither has,  plus 2 times the share outside of the domain      0 to 2
 //! ```
 //!
-//! What is outside counts as empty twice, so that it is told from what is inside and empty. What the scene covers adds
-//! to neither. A sketch without a target shows what its own documentation says.
+//! The outside counts as empty twice, to distinguish it from empty cells inside. Covered cells add to neither number. A
+//! sketch without a target documents its numbers.
 //!
 //! - `flat`: cells of a page, from words of bits
 //! - `bits`: one bit for each cell of a page, which copies share
@@ -52,23 +52,23 @@ struct Ring {
     cell: f64,
 }
 
-/// Where a guide looks from: a position and two unit directions at right angles, world space.
+/// The place from which a guide looks: a position and two unit directions at right angles, world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     /// The middle of the window.
     pub position: Vec3,
-    /// Unit: the direction of the first point of every ring.
+    /// Unit direction of the first point of every ring.
     pub forward: Vec3,
-    /// Unit, at a right angle to `forward`.
+    /// Unit direction at a right angle to `forward`.
     pub up: Vec3,
-    /// Multiplies all lengths of a window: radii and cells. Above 0.
+    /// The factor on all lengths of a window, radii and cells; above 0.
     pub scale: f64,
 }
 
 impl Place {
-    /// A place of scale 1. `forward` has any length, and `up` any direction: its part across `forward` counts. Without
-    /// one, or where it has no such part, it is that of +y, or else any direction across. `None` for a `forward` that is
-    /// no direction, and for numbers that are not finite.
+    /// A place of scale 1. `forward` has any length. `up` has any direction, and its part across `forward` counts. Without
+    /// `up`, or without such a part, +y replaces it, or else any direction across. `None` for a `forward` that is no
+    /// direction, and for numbers that are not finite.
     pub fn new(position: Vec3, forward: Vec3, up: Option<Vec3>) -> Option<Place> {
         let forward = Some(forward).filter(|f| f.is_finite()).and_then(Vec3::unit)?;
         if !position.is_finite() {
@@ -79,18 +79,18 @@ impl Place {
             let rest = v - forward * forward.dot(v);
             if rest.norm() > 1e-9 { rest.unit() } else { None }
         };
-        let given = up.filter(|up| up.is_finite()).and_then(across);
-        let up = given.or_else(|| across(Vec3::AXES[1])).unwrap_or_else(|| forward.any_perpendicular());
+        let up = up.filter(|up| up.is_finite()).and_then(across);
+        let up = up.or_else(|| across(Vec3::AXES[1])).unwrap_or_else(|| forward.any_perpendicular());
         Some(Place { position, forward, up, scale: 1.0 })
     }
 
-    /// Unit: the third direction, which makes `forward`, `left` and `up` right-handed.
+    /// The third unit direction, which makes `forward`, `left` and `up` right-handed.
     pub fn left(&self) -> Vec3 {
         self.up.cross(self.forward)
     }
 }
 
-/// What a window looks at.
+/// The kind of space that a window looks at.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum WindowKind {
@@ -103,22 +103,22 @@ pub enum WindowKind {
 /// A point of a window.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct WindowPoint {
-    /// Along the place's `forward`, `left` and `up`, world units. A flat window has nothing along `up`.
+    /// Offset along the place's `forward`, `left` and `up`, world units. A flat window has nothing along `up`.
     pub at: [f64; 3],
-    /// Side of its cell, world units.
+    /// Side of the cell, world units.
     pub cell: f64,
 }
 
-/// The points of a window: plain data in world units, kept in a guide's file, so that a target of another size or
-/// resolution is looked at with the same lengths.
+/// The points of a window: plain data in world units. A guide's file has them, so that the lengths stay the same for targets
+/// of another size or resolution.
 ///
-/// In a picture that is seen in perspective lengths are those at depth 1, so that a window is equally large in the
-/// picture wherever its place is.
+/// In a perspective picture lengths are those at depth 1, so that the size of a window in the picture does not depend on its
+/// place.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct WindowForm {
-    /// What it looks at.
+    /// The kind of space.
     pub kind: WindowKind,
-    /// Its points, from the middle outwards.
+    /// The points, from the middle outwards.
     pub points: Vec<WindowPoint>,
 }
 
@@ -157,12 +157,12 @@ impl WindowForm {
         WindowForm { kind: WindowKind::Solid, points: SOLID.iter().flat_map(shell).collect() }
     }
 
-    /// How many numbers it shows.
+    /// The number of its values.
     pub fn values(&self) -> usize {
         2 * self.points.len()
     }
 
-    /// What it shows where everything is outside.
+    /// Appends the values of a window that is wholly outside.
     pub(crate) fn outside(&self, out: &mut Vec<f32>) {
         self.points.iter().for_each(|_| out.extend([0.0, 2.0]));
     }

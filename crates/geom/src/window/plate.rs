@@ -1,9 +1,8 @@
-//! A page over the rays of a picture: a window looks at it as at a drawing.
+//! Plates: pages over the rays of a picture, so that a window looks at a picture as at a drawing.
 //!
-//! The page lies in the plane that the rays fall on. For a camera its pixels are those of the picture. The rays to a light
-//! come from wherever the receiver is seen, so there the pixels are squares, as many as rays. A pixel
-//! stands for the ray nearest to its middle, of its own rays or else of those of the eight around it; a pixel without one
-//! is outside.
+//! The page lies in the plane of the rays. For a camera, its pixels are those of the picture. The rays to a light start at
+//! the visible points of the receiver. For them the pixels are squares, as many as there are rays. A pixel stands for the
+//! ray nearest to its middle, of its own rays or else of the rays of its eight neighbours. A pixel without a ray is outside.
 
 use super::bits::Bits;
 use super::flat::{self, Spot};
@@ -16,24 +15,25 @@ const NONE: u32 = u32::MAX;
 
 #[derive(Debug)]
 pub(crate) struct Plate {
-    /// Lowest first and highest second coordinate.
+    /// The lowest first and the highest second coordinate.
     corner: [f64; 2],
     pixel: [f64; 2],
     size: [usize; 2],
     /// Words of a row.
     across: usize,
-    /// The pixels that have a ray, and those whose ray should be on, row by row.
-    known: Vec<u64>,
-    wanted: Vec<u64>,
-    /// Every pixel has a ray.
+    /// The pixels that have a ray, row by row.
+    inside: Vec<u64>,
+    /// The pixels whose ray should be on, row by row.
+    target: Vec<u64>,
+    /// True if every pixel has a ray.
     full: bool,
-    /// Pixels for which each ray stands: those of ray `r` are `pixels[starts[r]..starts[r + 1]]`.
+    /// The pixels of each ray: ray `r` has `pixels[starts[r]..starts[r + 1]]`.
     starts: Vec<u32>,
     pixels: Vec<u32>,
 }
 
 impl Plate {
-    /// Of the rays of a picture of `picture` (columns, rows); `on` says which of them should be on.
+    /// The plate of the rays of a picture of `picture` (columns, rows); `on` is true for rays that should be on.
     pub fn new(rays: &Rays, picture: [usize; 2], on: impl Fn(usize) -> bool) -> Plate {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for ray in 0..rays.len() {
@@ -63,8 +63,8 @@ impl Plate {
             pixel,
             size,
             across,
-            known: zeros.clone(),
-            wanted: zeros,
+            inside: zeros.clone(),
+            target: zeros,
             full: false,
             starts: vec![0; rays.len() + 1],
             pixels: Vec::new(),
@@ -76,43 +76,45 @@ impl Plate {
     /// Finds the ray of each pixel.
     fn assign(&mut self, rays: &Rays, on: impl Fn(usize) -> bool) {
         let [columns, rows] = self.size;
-        let distance = |own: &Plate, ray: usize, column: usize, row: usize| {
-            let [x, y] = own.fall(rays.ray(ray).at);
+        let distance = |plate: &Plate, ray: usize, column: usize, row: usize| {
+            let [x, y] = plate.fall(rays.ray(ray).at);
             (x - column as f64 - 0.5).powi(2) + (y - row as f64 - 0.5).powi(2)
         };
-        let nearer = |own: &Plate, a: u32, b: u32, column: usize, row: usize| {
+        let nearer = |plate: &Plate, a: u32, b: u32, column: usize, row: usize| {
             b == NONE
                 || a != NONE
-                    && distance(own, a as usize, column, row) < distance(own, b as usize, column, row)
+                    && distance(plate, a as usize, column, row) < distance(plate, b as usize, column, row)
         };
-        let mut own = vec![NONE; columns * rows];
+        let mut nearest = vec![NONE; columns * rows];
         for ray in 0..rays.len() {
             let [x, y] = self.fall(rays.ray(ray).at);
             let (column, row) = ((x.max(0.0) as usize).min(columns - 1), (y.max(0.0) as usize).min(rows - 1));
-            if nearer(self, ray as u32, own[row * columns + column], column, row) {
-                own[row * columns + column] = ray as u32;
+            if nearer(self, ray as u32, nearest[row * columns + column], column, row) {
+                nearest[row * columns + column] = ray as u32;
             }
         }
-        let mut chosen = own.clone();
-        for (pixel, best) in chosen.iter_mut().enumerate().filter(|(_, ray)| **ray == NONE) {
+        let mut rays_of_pixels = nearest.clone();
+        for (pixel, best) in rays_of_pixels.iter_mut().enumerate().filter(|(_, ray)| **ray == NONE) {
             let (column, row) = (pixel % columns, pixel / columns);
             for y in row.saturating_sub(1)..(row + 2).min(rows) {
                 for x in column.saturating_sub(1)..(column + 2).min(columns) {
-                    if own[y * columns + x] != NONE && nearer(self, own[y * columns + x], *best, column, row)
+                    if nearest[y * columns + x] != NONE
+                        && nearer(self, nearest[y * columns + x], *best, column, row)
                     {
-                        *best = own[y * columns + x];
+                        *best = nearest[y * columns + x];
                     }
                 }
             }
         }
-        let mut pairs: Vec<(u32, u32)> = (0..).zip(&chosen).map(|(pixel, ray)| (*ray, pixel)).collect();
+        let mut pairs: Vec<(u32, u32)> =
+            (0..).zip(&rays_of_pixels).map(|(pixel, ray)| (*ray, pixel)).collect();
         pairs.retain(|(ray, _)| *ray != NONE);
-        self.full = pairs.len() == chosen.len();
+        self.full = pairs.len() == rays_of_pixels.len();
         pairs.sort_unstable();
         for (ray, pixel) in pairs {
             let (word, bit) = self.bit(pixel);
-            self.known[word] |= bit;
-            self.wanted[word] |= if on(ray as usize) { bit } else { 0 };
+            self.inside[word] |= bit;
+            self.target[word] |= if on(ray as usize) { bit } else { 0 };
             self.starts[ray as usize + 1] += 1;
             self.pixels.push(pixel);
         }
@@ -121,7 +123,7 @@ impl Plate {
         }
     }
 
-    /// Where a point of the plane lies on the page, in pixels from its upper left corner.
+    /// The position of a point of the plane on the page, in pixels from its upper left corner.
     fn fall(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [(x - self.corner[0]) / self.pixel[0], (self.corner[1] - y) / self.pixel[1]]
     }
@@ -137,9 +139,9 @@ impl Plate {
         (self.size[0] as f64 * self.pixel[0]).max(self.size[1] as f64 * self.pixel[1])
     }
 
-    /// Its page without anything on it.
+    /// The empty page.
     pub fn empty(&self) -> Bits {
-        Bits::new(self.known.len())
+        Bits::new(self.inside.len())
     }
 
     /// Changes the pixels of rays of a word.
@@ -154,7 +156,7 @@ impl Plate {
         }
     }
 
-    /// Appends both channels of every point, of what is not covered.
+    /// Appends both channels of every point, without covered pixels.
     pub fn look(
         &self,
         projection: &Projection,
@@ -170,20 +172,20 @@ impl Plate {
         let first = out.len();
         let words = |across: usize, row: usize| {
             let word = row * self.across + across;
-            let (known, wanted) = (self.known[word], self.wanted[word]);
+            let (inside, target) = (self.inside[word], self.target[word]);
             let free = !covered.word(word);
-            [wanted & free, known & !wanted & free]
+            [target & free, inside & !target & free]
         };
         flat::look(form, &spot, self.size, 2.0, words, out);
         if !self.full {
             let mut unknown = Vec::new();
-            let gaps = |across: usize, row: usize| [0, !self.known[row * self.across + across]];
+            let gaps = |across: usize, row: usize| [0, !self.inside[row * self.across + across]];
             flat::look(form, &spot, self.size, 0.0, gaps, &mut unknown);
             out[first..].iter_mut().zip(unknown).for_each(|(shown, gap)| *shown += 2.0 * gap);
         }
     }
 
-    /// A place as it falls on the page, along `up` when it looks along its ray; `None` behind a camera.
+    /// The projection of a place to the page, along `up` when it looks along its ray; `None` behind a camera.
     fn spot(&self, projection: &Projection, place: &Place) -> Option<Spot> {
         let depth = projection.depth(place.position);
         if projection.perspective && depth.is_nan() | (depth <= 1e-9) {

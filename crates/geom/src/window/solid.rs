@@ -1,9 +1,9 @@
 //! Solid windows: shares of boxes of cells, read between boxes.
 //!
-//! The box of a point has 1, 2, 4, 8 or 16 cells along each side, the number nearest to the size that the form asks for.
+//! The box of a point has 1, 2, 4, 8 or 16 cells along each side, the number nearest to the size in the form.
 //! Boxes lie side by side from the grid's first corner, and a point between the middles of eight shows their shares by
-//! trilinear interpolation. Boxes of 1 and 2 are counted in the bits; for those of 4 and 8 each brick keeps [`Sums`],
-//! 16 is made of 8.
+//! trilinear interpolation. Boxes of 1 and 2 are counted in the bits. Each brick keeps [`Sums`] for
+//! boxes of 4 and 8. A box of 16 is the sum of boxes of 8.
 
 use super::{Place, WindowForm};
 use crate::bricks::layout::bricks_of;
@@ -13,11 +13,11 @@ use crate::vector::Vec3;
 
 /// The number of doublings of the largest box.
 const LARGEST: u32 = 4;
-/// A target and what a scene fills of it, with sums.
+/// A target and the cells that a scene fills, with sums.
 pub(crate) struct Volume<'a> {
     target: &'a Target,
     filled: &'a Counters,
-    /// Of the target, brick by brick.
+    /// Sums of the target, brick by brick.
     sums: &'a [Sums],
     dims: [usize; 3],
     across: [usize; 3],
@@ -54,7 +54,7 @@ impl<'a> Volume<'a> {
         let (mut weights, mut inside) = ([[0.0; 2]; 3], 1.0);
         for a in 0..3 {
             let most = self.dims[a] as f64;
-            // In boxes from the middle of the first; farther out all is outside.
+            // The unit is a box, from the middle of the first box on; farther out everything is outside.
             let x = (at[a] * per_side - 0.5).clamp(-2.0, most + 1.0);
             first[a] = (x + 2.0) as i32 - 2;
             let floor = f64::from(first[a]);
@@ -81,7 +81,7 @@ impl<'a> Volume<'a> {
         [sums[0] * share, sums[1] * share + 2.0 * (1.0 - inside * share)]
     }
 
-    /// Uncovered cells of a box, and of the next along x.
+    /// Uncovered cells of a box and of its neighbour along x.
     #[inline]
     fn pair(&self, level: u32, [x, y, z]: [i32; 3]) -> [[i32; 2]; 2] {
         match level {
@@ -119,8 +119,7 @@ impl<'a> Volume<'a> {
         }
     }
 
-    /// Of the target, less what the scene fills, in the boxes `x` and `x + 1` of a row of bricks, of which each has
-    /// `2^shift` boxes; nothing outside.
+    /// The target less the scene in the boxes `x` and `x + 1` of a row of bricks, each of `2^shift` boxes; zero outside.
     #[inline(always)]
     fn boxes(&self, [x, y, z]: [i32; 3], shift: u32, of: impl Fn(&Sums, usize) -> [i32; 2]) -> [[i32; 2]; 2] {
         let first = self.sums([x >> shift, y, z]);
@@ -128,14 +127,14 @@ impl<'a> Volume<'a> {
         let uncovered = |sums: Option<(&Sums, Option<&Sums>)>, x: i32| {
             let Some((target, filled)) = sums else { return [0; 2] };
             let x = (x & !(-1 << shift)) as usize;
-            let ([wanted, empty], [right, wrong]) =
+            let ([target, empty], [right, wrong]) =
                 (of(target, x), filled.map_or([0; 2], |sums| of(sums, x)));
-            [wanted - right, empty - wrong]
+            [target - right, empty - wrong]
         };
         [uncovered(first, x), uncovered(second, x + 1)]
     }
 
-    /// Sums of a brick: of the target, and of what the scene fills where it fills something.
+    /// The sums of a brick: of the target, and of the scene unless it is empty there.
     #[inline(always)]
     fn sums(&self, brick: [i32; 3]) -> Option<(&Sums, Option<&Sums>)> {
         let place = self.brick(brick)?;
@@ -143,7 +142,7 @@ impl<'a> Volume<'a> {
         Some((&self.sums[place[1] * self.across[0] * self.across[1] + place[0]], filled))
     }
 
-    /// Place of a brick in its layer, and its layer.
+    /// The place of a brick in its layer, and its layer.
     #[inline]
     fn brick(&self, brick: [i32; 3]) -> Option<[usize; 2]> {
         let within = (0..3).all(|a| (brick[a] as u32 as usize) < self.across[a]);
@@ -151,7 +150,7 @@ impl<'a> Volume<'a> {
         within.then(|| [y * self.across[0] + x, z])
     }
 
-    /// Uncovered cells of both channels along x, from the lowest bit on: four at least.
+    /// Uncovered cells of both channels along x, from the lowest bit on: at least four.
     #[inline]
     fn bits(&self, [x, y, z]: [i32; 3]) -> [u64; 2] {
         let (column, shift) = (x >> 6, x & 63);

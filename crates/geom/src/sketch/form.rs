@@ -1,30 +1,10 @@
-//! The kinds of sketches as data: a name, settings, and the texts for scenes that a sketch forbids.
+//! The targets of sketches as data, and the texts for scenes that a sketch forbids.
 
 use super::drawing::Drawing;
 use super::picture::Picture;
-use super::score::SketchSpec;
 use crate::bricks::Target;
 use crate::error::GeomError;
 use std::sync::Arc;
-
-/// The settings of a kind of sketch, as Python's function of its name sends them. Each file of a sketch has such a type,
-/// with a row in the table of [`super::SketchForm`].
-pub trait Settings: Named {
-    /// The texts for scenes that it forbids; `None` where it forbids none.
-    const FORBIDS: Option<Forbids> = None;
-
-    /// The specification with these settings.
-    ///
-    /// # Errors
-    /// `bad-setting` for a value out of its range, and for an input that is missing.
-    fn spec(self, inputs: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError>;
-}
-
-/// The name of a kind of sketch, from its row in the table.
-pub trait Named {
-    /// The name of Python's function, for example `floor`.
-    const NAME: &'static str;
-}
 
 /// Texts of a message about scenes that a sketch forbids.
 #[derive(Clone, Copy, Debug)]
