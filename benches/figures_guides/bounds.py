@@ -109,7 +109,7 @@ def by_bound(objective: str, start: Guide | None, places: Places) -> Guide:
         start=start,
         seed=1,
     )
-    return made.reported(made.report | {"cpu": time.process_time() - begun})
+    return made.with_report(made.report | {"cpu": time.process_time() - begun})
 
 
 def of_vines(places: Places) -> dict[str, Guide]:

@@ -138,4 +138,4 @@ def train_look_ahead(
             check_threads(threads) or cpu_count() or 1,
             watch,
         )
-    return Guide(engine.data()).reported({**guide.report, "look_ahead": {"seed": seed, **told}})
+    return Guide(engine.data()).with_report({**guide.report, "look_ahead": {"seed": seed, **told}})

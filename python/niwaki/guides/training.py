@@ -238,7 +238,7 @@ def train_guide(
         raise KeyboardInterrupt
     if best is start and not told:
         return best
-    return best.reported({**about, "rounds": [one.data() for one in told], "interrupted": pressed})
+    return best.with_report({**about, "rounds": [one.data() for one in told], "interrupted": pressed})
 
 
 @dataclass

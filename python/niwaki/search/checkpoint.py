@@ -46,7 +46,7 @@ class Checkpoint:
     path
         The file. A search resumes from it if it exists.
     every
-        About the seconds between two writes; more if writing takes long, so that it takes at most a fiftieth of the time.
+        About the seconds between two writes; more if writing takes long: it takes at most a fiftieth of the time.
     keep
         Whether the file stays after the end of the search.
     note

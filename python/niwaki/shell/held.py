@@ -160,7 +160,7 @@ class Origin:
             one, seed = start, (asked.seed + number) % 2**64
             for pattern in self.reroll:
                 scene = [part.address for part in one.parts]
-                for part in parts.matching(pattern, one.choices, scene, asked.model.name):
+                for part in parts.matching_parts(pattern, one.choices, scene, asked.model.name):
                     grown = one.regrow(part, particles or PARTICLES, power=power, seed=seed, threads=threads)
                     one = grown.best
             found.append(one)

@@ -126,7 +126,7 @@ class Held:
         wanted = {n for n, address in enumerate(scene) if _engine.matches(part, address)}
         if not wanted:
             choices = [choice.path for choice in trace.choices if choice.family != "delta"]
-            calls = parts.matching(part, choices, scene, self.search.model.name)
+            calls = parts.matching_parts(part, choices, scene, self.search.model.name)
             wanted = {n for n, place in enumerate(scene) if any(place.startswith(f"{c}/") for c in calls)}
         if not wanted:
             near = ", ".join(f"`{one}`" for one in _engine.nearest(part, scene))
