@@ -108,7 +108,7 @@ hmc, nuts = Hmc, Nuts
 
 
 def explore(draws: int = 8, chains: int = 128, warmup: int = 6, steps: int = 30, climb: int = 2000) -> Hmc:
-    """Make a method of many short chains, for designs and not for estimates: each climbs from its own run, then samples.
+    """Make a method of many short chains, for designs and not for estimates: each climbs from a run, then samples.
 
     Tight constraints leave likely runs in separate narrow regions, which one chain crosses slowly or never leaves.
     Chains from many places reach more regions with as many gradients. The weight of each region then depends on the

@@ -262,8 +262,8 @@ class MhInfo(Info):
             if broke.structure and (unmoved := self._unmoved()):
                 say(
                     f"{other_structures(broke.structure, trajectories.settled, name)}; no other kernel of the chain "
-                    f"moves {listed(unmoved)}, so the samples may be given the structure of its start; add `kernels.prior()`: "
-                    f"`kernels.cycle(kernels.prior(), ...)`"
+                    f"moves {listed(unmoved)}, so the samples may be given the structure of the start; add "
+                    f"`kernels.prior()`: `kernels.cycle(kernels.prior(), ...)`"
                 )
             if broke.energy:
                 smaller = (

@@ -163,8 +163,8 @@ class HmcInfo(DrawnInfo):
         if broke.structure and figures:
             kernel = "nuts_step" if isinstance(method, Nuts) else "hmc_step"
             say(
-                f"{other_structures(broke.structure, trajectories, name)}; each chain keeps the structure of its start, "
-                f"so the draws are given that structure and are not those of the whole model; use instead "
+                f"{other_structures(broke.structure, trajectories, name)}; each chain keeps the structure of its "
+                f"start, so the draws are given that structure and are not those of the whole model; use instead "
                 f"`mh(kernel=kernels.cycle(kernels.prior(), kernels.{kernel}()))`, with `from niwaki import kernels`"
             )
         if broke.energy and figures:
