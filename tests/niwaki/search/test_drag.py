@@ -127,7 +127,7 @@ def test_held_choices_stay_to_the_bit_and_are_the_reason_where_all_are_held() ->
     assert held.best is None
     assert (
         held.reason
-        == "nothing that is free moves `top`: all 3 choices that move it are held (`a`, `b`, `deep`)"
+        == "no free choice moves `top`: all 3 choices that move it are held (`a`, `b`, `deep`)"
     )
     # Values by address are those of the run, and hold the same.
     expected = sample.drag("top", (a + b + 0.1, 0.5, deep), hold=["b"]).answers
