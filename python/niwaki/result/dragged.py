@@ -25,8 +25,8 @@ class Dragged:
         The distance to the goal: in scene units, and as a share of the scene's size.
     kind : str
         The choices that could change: "least" all, "fewest" the three that move the part most, "own" those of the
-        part's own call, "outermost" those of the model itself, "other" all, from other values, "structure" discrete choices,
-        too.
+        part's own call, "outermost" those of the model itself, "other" all, from other values,
+        "structure" discrete choices, too.
     part : str
         The address of the part at the goal.
     holds : dict
