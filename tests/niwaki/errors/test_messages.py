@@ -33,9 +33,7 @@ AWAITED = {
         "too-many-cells unreadable-image bad-setting unknown-setting everything-impossible out-of-time"
     ).split(),
     *("model-arguments argument-value not-a-shape bad-choice not-enumerable").split(),
-    *(
-        "too-many-runs rejection-budget rejection-bound wrong-arity not-runnable"
-    ).split(),
+    *("too-many-runs rejection-budget rejection-bound wrong-arity not-runnable").split(),
     *(
         "waiting-cycle step-budget memory-budget integer-overflow not-callable host-function missing-method"
     ).split(),
