@@ -109,7 +109,7 @@ def by_bound(objective: str, start: Guide | None, places: Places) -> Guide:
         start=start,
         seed=1,
     )
-    return guide.reported(guide.report | {"cpu": time.process_time() - start_time})
+    return guide.with_report(guide.report | {"cpu": time.process_time() - start_time})
 
 
 def of_vines(places: Places) -> dict[str, Guide]:

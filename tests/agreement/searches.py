@@ -15,9 +15,11 @@ import sys
 
 import niwaki as nw
 from niwaki.errors import NiwakiError
-from niwaki.methods.chains import STRATEGIES
 from programs import program
 from test_engine import load
+
+#: Strategies of chains, as in the engine.
+STRATEGIES = ("c3", "rerun", "resume", "cache")
 
 BODY = """
 

@@ -47,8 +47,6 @@ from niwaki import kernels
 from niwaki.errors import ModelError, NiwakiError
 from niwaki.lang import futures
 from niwaki.lang.plain import run_python
-from niwaki.methods import RESAMPLING
-from niwaki.methods.chains import STRATEGIES
 from test_chains import disagreement
 from test_engine import compared, differs, facts, load
 
@@ -385,6 +383,11 @@ def m():
 #: A truth value that `or` and `and` write in several places, where a future's argument changes below them.
 SEVERAL = """from dataclasses import dataclass
 from niwaki import model; from niwaki.words import *
+
+#: Strategies of chains, as in the engine.
+STRATEGIES = ("c3", "rerun", "resume", "cache")
+#: Methods of resampling, as in the engine.
+RESAMPLING = ("systematic", "residual", "stratified", "multinomial", "tempered")
 
 LOGS = (0.0, -0.7, 0.6)
 @dataclass(frozen=True)

@@ -17,8 +17,10 @@ import numpy as np
 import pytest
 from niwaki import kernels, mem, model
 from niwaki.errors import ModelFault, NiwakiError
-from niwaki.methods.chains import STRATEGIES
 from niwaki.words import Bernoulli, Gaussian, infer
+
+#: Strategies of chains, as in the engine.
+STRATEGIES = ("c3", "rerun", "resume", "cache")
 
 RED = 0.3
 

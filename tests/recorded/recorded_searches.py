@@ -231,7 +231,7 @@ def of_methods() -> Iterator[tuple[str, Search]]:
     for name, kernel in KERNELS.items():
         chains = nw.mh(600, kernel=kernel, chains=2, warmup=200, keep=20)
         yield from variants(f"mh {name}", MIXTURE, chains)
-    for strategy in nw.methods.STRATEGIES:
+    for strategy in ("c3", "rerun", "resume", "cache"):
         yield from variants(f"mh by {strategy}", MIXTURE, nw.mh(600, strategy, KERNELS["mixture"], keep=20))
     yield from variants("mh invalid", INVALID, nw.mh(3000, chains=2, keep=20))
     yield from variants(
@@ -241,7 +241,7 @@ def of_methods() -> Iterator[tuple[str, Search]]:
     yield "mh guided, held", lambda: PATH.run(nw.mh(200, kernel=kernels.guided(taught())), hold=PATH.hold())
     yield "mh regrow, guided", lambda: PATH.run(nw.mh(60, kernel=kernels.regrow(5, guide=taught()), keep=20))
     yield "ais, guided", lambda: PATH.run(nw.ais(10, 4, kernels.guided(taught()), moves=2))
-    for metric in nw.methods.METRICS:
+    for metric in ("diagonal", "dense", "low-rank", "unit"):
         chain = {"warmup": 60, "chains": 2, "metric": metric}
         yield from variants(f"hmc {metric}", LINE, nw.hmc(20, 8, **chain))
         yield from variants(f"nuts {metric}", LINE, nw.nuts(20, 5, **chain))
@@ -250,8 +250,8 @@ def of_methods() -> Iterator[tuple[str, Search]]:
     numbers = nw.hmc(20, 8, warmup=20, metric=(1.0, 2.0), step_size=0.2)
     yield "hmc of numbers", lambda: LINE.run(numbers)
     yield from variants("hmc explore", MIXTURE, nw.methods.explore(2, 6, 4, 6, 50))
-    for family in nw.methods.FAMILIES:
-        for start in nw.methods.STARTS if family != "pathfinder" else ("pathfinder",):
+    for family in ("mean-field", "full-rank", "pathfinder"):
+        for start in ("pathfinder", "run") if family != "pathfinder" else ("pathfinder",):
             yield from variants(
                 f"vi {family} from {start}", LINE, nw.vi(family, 40, 300, 8, start=start, paths=2)
             )

@@ -1,4 +1,4 @@
-//! Markov chains for Python. They are kept between two calls, so that a search can go on.
+//! Markov chains for Python. They stay alive between two calls, so that a search can continue.
 
 use crate::checkpoints::PyCheckpoint;
 use crate::faults;
@@ -25,17 +25,17 @@ use std::sync::Arc;
 /// Proposals at one site of the program.
 #[pyclass(frozen, get_all, name = "Site", module = "niwaki._engine")]
 pub struct PySite {
-    /// Its function.
+    /// The function.
     function: String,
-    /// Its readable component.
+    /// The readable component.
     site: String,
-    /// Its line in the source.
+    /// The line in the source.
     line: u32,
-    /// How many proposals there were.
+    /// The number of proposals.
     proposed: u64,
-    /// How many were kept.
+    /// The number of accepted proposals.
     accepted: u64,
-    /// How many lay outside the support of the choice's distribution.
+    /// The number of proposals outside the support of the choice's distribution.
     outside: u64,
 }
 
@@ -50,7 +50,7 @@ pub struct PyChains {
 impl PyChains {
     /// Chains in their first states, by the text of a method; ``start`` has values for their choices.
     /// ``attached`` are the users' proposals and guides that the kernel names by number; ``room`` is the most choices that the
-    /// samples of one chain hold together. Chains that the ``checkpoint`` has go on from there.
+    /// samples of one chain hold together. Chains in the ``checkpoint`` resume.
     #[new]
     #[pyo3(signature = (task, method, seed, *, attached=Vec::new(), room=1 << 22, start=None, threads=None, checkpoint=None))]
     #[expect(clippy::too_many_arguments, reason = "the settings of chains")]
@@ -79,8 +79,8 @@ impl PyChains {
         Ok(PyChains { task, chains: Shared::new(chains) })
     }
 
-    /// Makes ``steps`` proposals in each chain; without a number those that the method names, or that were left when a checkpoint
-    /// was written. Whether it was interrupted.
+    /// Makes ``steps`` proposals in each chain; by default the proposals of the method that are not made yet. Returns whether
+    /// the chains were interrupted.
     #[pyo3(signature = (steps=None, threads=None, watch=None, checkpoint=None))]
     fn advance(
         &self,
@@ -105,7 +105,7 @@ impl PyChains {
         Ok(stopped || pressed)
     }
 
-    /// Refuses where nobody could ever use them: see [`Shared::check`].
+    /// Refuses chains whose user is gone: see [`Shared::check`].
     fn check(&self, py: Python<'_>) -> PyResult<()> {
         self.chains.check(py)
     }
@@ -135,13 +135,13 @@ impl PyChains {
         Ok(first.map(|rung| self.run(Arc::new(rung.now(program)))).collect())
     }
 
-    /// Proposals between two samples, of each chain.
+    /// The number of proposals between two samples, by chain.
     fn thin(&self, py: Python<'_>) -> PyResult<Vec<u64>> {
         let chains = self.chains.lock(py)?;
         Ok(chains.chains.iter().filter_map(|ladder| Some(ladder.rungs.first()?.samples.thin)).collect())
     }
 
-    /// Exchanges between neighbouring powers, all chains together: (tried, made).
+    /// Exchanges between neighbouring powers in all chains: (proposed, accepted).
     fn exchanges(&self, py: Python<'_>) -> PyResult<Vec<(u64, u64)>> {
         let chains = self.chains.lock(py)?;
         let mut all = vec![(0, 0); chains.chains.first().map_or(0, |ladder| ladder.exchanges.len())];
@@ -153,7 +153,7 @@ impl PyChains {
         Ok(all)
     }
 
-    /// Proposals by site, all chains together.
+    /// Proposals of all chains by site.
     fn sites(&self, py: Python<'_>) -> PyResult<Vec<PySite>> {
         let (program, chains) = (&self.task.get().task.program, self.chains.lock(py)?);
         let mut all = Counts::new(program);
@@ -173,7 +173,7 @@ impl PyChains {
         Ok(all.named(program).into_iter().map(site).collect())
     }
 
-    /// Of each leaf of the kernel that follows the gradient, in order, all chains and powers together: a dict with
+    /// Statistics of each leaf of the kernel that follows the gradient, in order, for all chains and powers: a dict with
     /// ``made``, ``moved``, ``unwritten``, ``settled`` (after the warm-up), ``acceptance`` (their mean), ``gradients``,
     /// ``structures``, ``recordings``, ``divergences`` (see [`broken_off`]), ``warmup_divergences``; ``step``, by chain;
     /// and ``fault``, an exception or None.
@@ -213,8 +213,8 @@ impl PyChains {
         all.into_iter().map(row).collect()
     }
 
-    /// Sums over the chains: proposals, activations entered, calls skipped, instructions, primitives that were taken out
-    /// of the scene or put into it (`moved`); primitives, choices and bytes held.
+    /// Sums over the chains: proposals, activations entered, calls skipped, instructions, primitives removed from the scene
+    /// or added to it (`moved`); primitives, choices and bytes of the states.
     fn counters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let chains = self.chains.lock(py)?;
         let facts = PyDict::new(py);
@@ -235,7 +235,7 @@ impl PyChains {
     }
 }
 
-/// Metropolis-Hastings of a text, the settings of its chains, and the task that keeps the variables of their proposals.
+/// Reads Metropolis-Hastings from a text: the method, the settings of its chains, and the task with the variables of proposals.
 fn settings(
     py: Python<'_>,
     task: &PyTask,
@@ -253,7 +253,7 @@ fn settings(
 }
 
 /// Runs ``steps`` proposals under each of the four strategies and compares everything to the bit. Returns the first
-/// disagreement (or None), the proposals of each strategy, those accepted, and those with a fault.
+/// disagreement (or None), and the numbers of proposals of each strategy, of accepted ones, and of those with a fault.
 #[pyfunction]
 #[pyo3(signature = (task, method, seed, steps, every=20, attached=Vec::new()))]
 fn agreement(
@@ -273,9 +273,9 @@ fn agreement(
     Ok((difference, compared.proposals, compared.accepted, compared.faults))
 }
 
-/// One proposal to the choice at ``address``, under each strategy: a dict with ``activations`` (label, function, depth,
-/// number of the one it was called from), ``home``, ``path``, ``old``, ``new``, and ``runs`` by strategy: (what
-/// happened, number of the activation), in order, and whether the run came to its end.
+/// Makes one proposal to the choice at ``address`` by each strategy: a dict with ``activations`` (label, function, depth,
+/// number of the caller), ``home``, ``path``, ``old``, ``new``, and ``runs`` by strategy: the events (name, number of the
+/// activation), in order, and whether the run came to its end.
 #[pyfunction]
 #[pyo3(signature = (task, seed, address, tries=1000))]
 fn explain<'py>(
@@ -323,7 +323,7 @@ impl PyChains {
     }
 }
 
-/// Puts this part into the module.
+/// Registers the classes and functions of this file.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyChains>()?;
     module.add_class::<PySite>()?;

@@ -1,7 +1,7 @@
 //! Distributions for Python: densities, draws and supports, as plain functions of plain values.
 //!
 //! Parameters are numbers, truth values, lists, tuples or arrays of them, and for mixtures lists of
-//! `(family, parameters)`. What a family cannot use is a `BadParameter`, which is a `ValueError`.
+//! `(family, parameters)`. A parameter that a family cannot use raises `BadParameter`, which is a `ValueError`.
 
 use niwaki_math::{self as math, Dist, Draw, Family, Interval, Param, Stream, Support};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -33,20 +33,20 @@ pub fn bad_parameter(py: Python<'_>, bad: &math::BadParameter) -> PyErr {
     error
 }
 
-/// The family of this name.
+/// Finds a family by its name.
 fn named(family: &str) -> PyResult<Family> {
     Family::from_name(family)
         .ok_or_else(|| PyValueError::new_err(format!("there is no distribution `{family}`")))
 }
 
-/// The distribution of this family with these parameters.
+/// Makes a distribution of a family with parameters.
 pub fn dist(family: &str, params: &Bound<'_, PyAny>) -> PyResult<Dist> {
     let family = named(family)?;
     let read: Vec<Param> = params.try_iter()?.map(|p| param(&p?)).collect::<PyResult<_>>()?;
     Dist::new(family, &read).map_err(|bad| bad_parameter(params.py(), &bad))
 }
 
-/// A truth value or a number; `None` for anything else. Arrays' scalars count.
+/// Reads a truth value or a number, or the scalar of an array; `None` for anything else.
 fn single(value: &Bound<'_, PyAny>) -> PyResult<Option<Draw>> {
     Ok(if value.is_instance_of::<PyBool>() {
         Some(Draw::Bool(value.extract()?))
@@ -60,7 +60,7 @@ fn single(value: &Bound<'_, PyAny>) -> PyResult<Option<Draw>> {
     })
 }
 
-/// The value itself, or an array (or an array's scalar) as lists and numbers.
+/// Converts an array or its scalar to lists and numbers; returns any other value unchanged.
 fn plain<'py>(value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     if value.hasattr("tolist")? { value.call_method0("tolist") } else { Ok(value.clone()) }
 }
@@ -70,7 +70,7 @@ fn not_understood(value: &Bound<'_, PyAny>) -> PyErr {
     PyTypeError::new_err(format!("a distribution cannot use a value of type {kind}"))
 }
 
-/// A Python value as a parameter.
+/// Reads a Python value as a parameter.
 pub fn param(value: &Bound<'_, PyAny>) -> PyResult<Param> {
     let value = plain(value)?;
     if let Some(number) = single(&value)? {
@@ -98,14 +98,14 @@ pub fn param(value: &Bound<'_, PyAny>) -> PyResult<Param> {
     }
 }
 
-/// True for `(family, parameters)`.
+/// Whether a value is `(family, parameters)`.
 fn is_dist(value: &Bound<'_, PyAny>) -> bool {
     let name =
         |pair: &Bound<'_, PyTuple>| pair.get_item(0).is_ok_and(|first| first.is_instance_of::<PyString>());
     value.cast::<PyTuple>().is_ok_and(|pair| pair.len() == 2 && name(pair))
 }
 
-/// A list of numbers.
+/// Reads a list of numbers.
 fn row(value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let number = |entry: PyResult<Bound<'_, PyAny>>| {
         let entry = plain(&entry?)?;
@@ -117,7 +117,7 @@ fn row(value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     value.try_iter().map_err(|_| not_understood(value))?.map(number).collect()
 }
 
-/// A Python value as one that a distribution can take.
+/// Reads a Python value as a value of a distribution.
 pub fn drawn(value: &Bound<'_, PyAny>) -> PyResult<Draw> {
     let value = plain(value)?;
     match single(&value)? {
@@ -126,7 +126,7 @@ pub fn drawn(value: &Bound<'_, PyAny>) -> PyResult<Draw> {
     }
 }
 
-/// A drawn value as Python's: bool, int, float or a list of these.
+/// Converts a drawn value to a bool, int, float or a list of these.
 pub fn to_python(py: Python<'_>, draw: &Draw) -> PyResult<Py<PyAny>> {
     Ok(match draw {
         Draw::Bool(b) => b.into_pyobject(py)?.to_owned().into_any().unbind(),
@@ -193,7 +193,7 @@ fn support(py: Python<'_>, family: &str, params: &Bound<'_, PyAny>) -> PyResult<
     Ok(tuple.unbind())
 }
 
-/// The values of positive probability, or `None` where they are not finitely many.
+/// The values of positive probability, or `None` for infinitely many.
 #[pyfunction]
 fn enumerate_support(
     py: Python<'_>,
@@ -206,14 +206,14 @@ fn enumerate_support(
     }
 }
 
-/// What Python's classes and the manual say of a family: its class, what it is, its parameters (name, type, default or
-/// none, what it is), where its values lie, what a draw is, and what its parameters may be.
+/// Documentation of a family for Python's classes and the manual: class, description, parameters (name, type, default or
+/// none, description), space of values, description of a draw, and ranges of the parameters.
 type Said = (&'static str, &'static str, Vec<Row>, String, &'static str, &'static str);
 
 /// A parameter of a family.
 type Row = (&'static str, &'static str, Option<&'static str>, &'static str);
 
-/// What is said of each family, by name.
+/// Documentation of each family, by name.
 fn manuals(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let all = PyDict::new(py);
     for &family in Family::ALL {
@@ -226,7 +226,7 @@ fn manuals(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     Ok(all)
 }
 
-/// Adds this part to the module.
+/// Registers the functions of this file.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("FAMILIES", manuals(module.py())?)?;
     module.add("BadParameter", module.py().get_type::<BadParameter>())?;

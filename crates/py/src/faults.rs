@@ -32,7 +32,7 @@ pub fn raise(py: Python<'_>, failure: &Failure, program: &Program) -> PyErr {
     build(py, failure, program).unwrap_or_else(|other| other)
 }
 
-/// The same, or what a host function raised that ends the search instead.
+/// The exception for why a search gave no result, or the exception of a host function that ended the search.
 pub fn ended(py: Python<'_>, failure: &Failure, task: &Task) -> PyErr {
     hosts::check(&*task.hosts).err().unwrap_or_else(|| raise(py, failure, &task.program))
 }
@@ -77,7 +77,7 @@ fn build(py: Python<'_>, failure: &Failure, program: &Program) -> PyResult<PyErr
     with_facts(py, failure.to_string(), &facts)
 }
 
-/// What became impossible in a search that has a result: causes, the parts to blame, and of how many runs.
+/// Losses of a search that has a result: causes, the parts to blame, and the number of runs in which they were looked for.
 pub fn losses<'py>(py: Python<'py>, lost: &Lost, program: &Program) -> PyResult<Bound<'py, PyTuple>> {
     let blame = blamed(py, &lost.blame, program)?;
     (lost.causes.clone(), blame, lost.looked_at).into_pyobject(py)
@@ -156,7 +156,7 @@ fn with_facts(py: Python<'_>, message: String, facts: &Bound<'_, PyDict>) -> PyR
     Ok(error)
 }
 
-/// Puts this part into the module.
+/// Registers the exception.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("EngineFault", module.py().get_type::<EngineFault>())
 }

@@ -76,7 +76,7 @@ fn faces_of<'py>(py: Python<'py>, mesh: &TriMesh) -> Bound<'py, PyArray2<i64>> {
     Array2::from_shape_fn((faces.len(), 3), |(i, k)| i64::from(faces[i][k])).into_pyarray(py)
 }
 
-/// The shape of a ``word`` with these arguments, by position and by name. They are read as in a model; a mesh is given by
+/// Makes the shape of a ``word`` with arguments by position and by name, read as in a model. A mesh is given by
 /// arrays.
 #[pyfunction]
 #[pyo3(signature = (word, /, *args, **named))]
@@ -118,14 +118,14 @@ fn shape(word: &str, args: &Bound<'_, PyTuple>, named: Option<&Bound<'_, PyDict>
     }
 }
 
-/// What a drawing needs to know of a flat shape.
+/// Measures of a flat shape for drawings.
 #[derive(IntoPyObject)]
 enum Flat {
     Stroke((Triple, f64), (Triple, f64)),
     Ellipse(Triple, f64, f64, f64),
 }
 
-/// A placed solid with its look; never changes.
+/// Immutable placed solid with its look.
 #[pyclass(frozen, eq, name = "Shape", module = "niwaki._engine", from_py_object)]
 #[derive(Clone, PartialEq)]
 pub struct PyShape(pub Shape);
@@ -137,7 +137,7 @@ impl PyShape {
         serde_json::to_string(&self.0).map_err(|error| PyValueError::new_err(error.to_string()))
     }
 
-    /// The shape of what ``data`` gave.
+    /// Reads a shape from the result of ``data``.
     #[staticmethod]
     fn of_data(data: &str) -> PyResult<PyShape> {
         let read: Result<Shape, _> = serde_json::from_str(data);
@@ -150,7 +150,7 @@ impl PyShape {
         self.0.kind()
     }
 
-    /// How it is painted where it has no colour: ``plain``, ``round`` or ``bark``.
+    /// The paint of a shape without colour: ``plain``, ``round`` or ``bark``.
     #[getter]
     fn tone(&self) -> &'static str {
         self.0.tone().name()
@@ -179,7 +179,7 @@ impl PyShape {
         (self.0.aabb().low.to_array(), self.0.aabb().high.to_array())
     }
 
-    /// Of a ``stroke`` the middle and the radius of each end, of an ``ellipse`` its middle, its full lengths and the
+    /// Measures of flat shapes: for a ``stroke`` the middle and the radius of each end, for an ``ellipse`` the middle, the lengths and the
     /// angle of the first (radians); None for other kinds.
     fn flat(&self) -> Option<Flat> {
         match self.0.solid() {
@@ -274,12 +274,12 @@ impl PyTarget {
         faces_of(py, self.0.mesh())
     }
 
-    /// Which cells are filled, (x, y, z) bool.
+    /// The filled cells, (x, y, z) bool.
     fn cells<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray3<bool>> {
         Array3::from_shape_fn(self.0.grid().dims(), |(x, y, z)| self.0.contains([x, y, z])).into_pyarray(py)
     }
 
-    /// Which cells a scene of ``shapes`` fills, (x, y, z) bool.
+    /// The cells that a scene of ``shapes`` fills, (x, y, z) bool.
     fn mask<'py>(&self, py: Python<'py>, shapes: Vec<PyShape>) -> Bound<'py, PyArray3<bool>> {
         let shapes: Vec<Shape> = shapes.into_iter().map(|s| s.0).collect();
         let mut mask = Array3::from_elem(self.0.grid().dims(), false);
@@ -288,7 +288,7 @@ impl PyTarget {
     }
 }
 
-/// What to score: makes the sketch of the empty scene.
+/// Description of a score, which makes the sketch of the empty scene.
 #[pyclass(frozen, name = "SketchSpec", module = "niwaki._engine", from_py_object)]
 #[derive(Clone)]
 pub struct PySketchSpec(pub Arc<dyn SketchSpec>);
@@ -342,12 +342,12 @@ impl PySketch {
         PySketch(Sketches::start(&specs))
     }
 
-    /// Adds one primitive; the name of the sketch that forbids the scene now, or None.
+    /// Adds a primitive; returns the name of the sketch that forbids the scene, or None.
     fn add(&mut self, shapes: Vec<PyShape>) -> Option<&'static str> {
         self.0.add(&primitive(shapes))
     }
 
-    /// Removes one primitive; a ``ValueError`` when the scene has none like it.
+    /// Removes a primitive; a ``ValueError`` if the scene has no such primitive.
     fn remove(&mut self, py: Python<'_>, shapes: Vec<PyShape>) -> PyResult<()> {
         if self.0.remove(&primitive(shapes)) {
             return Ok(());
@@ -382,7 +382,7 @@ impl PySketch {
         Ok(measures)
     }
 
-    /// A copy that shares what neither changes.
+    /// Copies the sketch; both copies share their unchanged parts.
     fn fork(&self) -> PySketch {
         PySketch(self.0.fork())
     }
@@ -392,7 +392,7 @@ impl PySketch {
 /// given) and what the manual says of it.
 type Row = (&'static str, &'static str, Option<&'static str>, &'static str);
 
-/// Puts this part into the module.
+/// Registers the classes and functions of this file.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyShape>()?;
     module.add_function(wrap_pyfunction!(shape, module)?)?;

@@ -14,17 +14,17 @@ use std::sync::Arc;
 /// A continuous choice of a sampler: its coordinates are `x[first : first + count]`.
 #[pyclass(frozen, get_all, name = "Coordinates", module = "niwaki._engine")]
 pub struct PyCoordinates {
-    /// Its readable address.
+    /// The readable address.
     name: String,
-    /// The family that it is drawn from.
+    /// The family of its distribution.
     family: &'static str,
-    /// How its value follows from coordinates: line, above, between, circle, simplex or vector.
+    /// The transform from coordinates to its value: line, above, between, circle, simplex or vector.
     transform: &'static str,
-    /// Its first coordinate.
+    /// The first coordinate.
     first: usize,
-    /// How many coordinates it has.
+    /// The number of coordinates.
     count: usize,
-    /// How many numbers its value has.
+    /// The number of numbers in its value.
     width: usize,
     /// Whether its value is a list.
     is_vector: bool,
@@ -104,7 +104,7 @@ impl PyDensity {
         })
     }
 
-    /// How often the program was recorded.
+    /// The number of recordings of the program.
     #[getter]
     fn recordings(&self, py: Python<'_>) -> PyResult<usize> {
         self.with(py, |live| live.recordings())
@@ -116,7 +116,7 @@ impl PyDensity {
         self.with(py, |live| live.recorded().emitted)
     }
 
-    /// ``(log density, gradient)`` at ``x``; ``None`` where the run makes other choices.
+    /// ``(log density, gradient)`` at ``x``; ``None`` if the run makes other choices there.
     fn value_and_gradient<'py>(
         &self,
         py: Python<'py>,
@@ -134,7 +134,7 @@ impl PyDensity {
     /// Values of the choices at ``x``, by path.
     fn values<'py>(&self, py: Python<'py>, x: PyReadonlyArray1<'py, f64>) -> PyResult<Bound<'py, PyDict>> {
         let point = self.point(py, &x)?;
-        // By the path of the point; where it has none, by the path used last.
+        // The path of the point decides; a point without a path takes the path that was used last.
         let (recorded, values) = self.with(py, |live| {
             let values = live.values(point);
             let recorded = live.recorded().clone();
@@ -166,7 +166,7 @@ impl PyDensity {
     }
 }
 
-/// Puts this part into the module.
+/// Registers the classes and functions of this file.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyCoordinates>()?;
     module.add_class::<PyDensity>()

@@ -19,7 +19,7 @@ use pyo3::types::{PyBytes, PyDict};
 use serde::de::DeserializeOwned;
 use std::sync::Arc;
 
-/// A trained guide.
+/// Trained guide.
 #[pyclass(frozen, name = "Guide", module = "niwaki._engine")]
 pub struct PyGuide {
     pub(crate) guide: Arc<Guide>,
@@ -27,19 +27,19 @@ pub struct PyGuide {
 
 #[pymethods]
 impl PyGuide {
-    /// The guide of the bytes of its file.
+    /// Reads a guide from the bytes of its file.
     #[new]
     fn new(py: Python<'_>, data: &[u8]) -> PyResult<PyGuide> {
         let guide = Guide::of_bytes(data).map_err(|fault| faults::setting(py, &fault))?;
         Ok(PyGuide { guide: Arc::new(guide) })
     }
 
-    /// The bytes of its file.
+    /// The bytes of the guide's file.
     fn data<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
         PyBytes::new(py, &self.guide.bytes())
     }
 
-    /// What it looks at and what it draws, as JSON.
+    /// Its inputs and the choices that it draws, as JSON.
     fn form(&self) -> PyResult<String> {
         serde_json::to_string(&self.guide.form)
             .map_err(|error| pyo3::exceptions::PyValueError::new_err(error.to_string()))
@@ -50,12 +50,12 @@ impl PyGuide {
         self.guide.form.names()
     }
 
-    /// How many weights its network has.
+    /// The number of weights of its network.
     fn weights(&self) -> usize {
         self.guide.net.size()
     }
 
-    /// The same guide with another report, a JSON object.
+    /// Copies the guide with another report, a JSON object.
     fn with_report(&self, py: Python<'_>, report: &str) -> PyResult<PyGuide> {
         let report = serde_json::from_str(report)
             .map_err(|error| faults::setting(py, &Fault::new("bad-guide", error.to_string())))?;
@@ -64,7 +64,7 @@ impl PyGuide {
         Ok(PyGuide { guide: Arc::new(Guide { form, net: self.guide.net.clone() }) })
     }
 
-    /// What the model of a task does not have of what it knows, as sentences; an error where nothing fits.
+    /// Differences between the guide and the model of a task, as sentences; an error if no choice matches.
     fn lost(&self, py: Python<'_>, task: &PyTask) -> PyResult<Vec<String>> {
         let task = task.keeping_all(py)?;
         let bound =
@@ -73,7 +73,7 @@ impl PyGuide {
     }
 }
 
-/// Traces to learn from.
+/// Traces for training.
 #[pyclass(frozen, name = "Lessons", module = "niwaki._engine")]
 pub struct PyLessons {
     examples: Shared<Vec<Example>>,
@@ -86,7 +86,7 @@ impl PyLessons {
         PyLessons { examples: Shared::new(Vec::new()) }
     }
 
-    /// Adds a run of a task; one that is ``held_out`` judges.
+    /// Adds a run of a task; ``held_out`` runs are for tests only.
     fn add(&self, py: Python<'_>, task: &PyTask, run: &PyRun, held_out: bool) -> PyResult<()> {
         let entries: Vec<Entry> = run.entries();
         let example = Example { task: task.keeping_all(py)?, entries, held_out };
@@ -94,8 +94,8 @@ impl PyLessons {
         Ok(())
     }
 
-    /// Of each trace the choices that a guide draws, and the sum of its ``ln(p / q)`` there, nats: how much less likely the
-    /// guide finds the trace than the prior does.
+    /// For each trace the number of choices that a guide draws, and the sum of their ``ln(p / q)``, nats: by how much the trace
+    /// is less likely under the guide than under the prior.
     fn losses(&self, py: Python<'_>, task: &PyTask, guide: &PyGuide) -> PyResult<Vec<(usize, f64)>> {
         let using = self.examples.lock(py)?;
         let examples: &[Example] = &using;
@@ -103,7 +103,7 @@ impl PyLessons {
         Ok(found)
     }
 
-    /// Trains a guide, or goes on with one: the guide, and a dict of what happened. ``settings`` is JSON.
+    /// Trains a guide, or continues its training: the guide, and a dict of statistics. ``settings`` is JSON.
     #[pyo3(signature = (task, settings, start=None, threads=None, watch=None, checkpoint=None))]
     #[expect(clippy::too_many_arguments, reason = "the settings of a training")]
     fn train<'py>(
@@ -140,8 +140,8 @@ impl PyLessons {
     }
 }
 
-/// Raises the evidence bound of a guide on tasks, from the one that is given or from the prior: the guide, and a dict of what
-/// happened. Tasks of `held_out` judge. ``settings`` is JSON.
+/// Raises the evidence bound of a guide on tasks, from a guide or from the prior: the guide, and a dict of
+/// statistics. Tasks of `held_out` are for tests only. ``settings`` is JSON.
 #[pyfunction]
 #[pyo3(signature = (tasks, held_out, settings, start=None, threads=None, watch=None, checkpoint=None))]
 #[expect(clippy::too_many_arguments, reason = "the settings of a training")]
@@ -177,7 +177,7 @@ fn raise_bound<'py>(
     Ok((PyGuide { guide: Arc::new(result.guide) }, told))
 }
 
-/// Teaches a guide to look ahead: the guide, and a dict of what happened. Tasks of `held_out` judge. ``settings`` is JSON.
+/// Trains the look-ahead of a guide: the guide, and a dict of statistics. Tasks of `held_out` are for tests only. ``settings`` is JSON.
 #[pyfunction]
 #[pyo3(signature = (tasks, held_out, guide, settings, threads=None, watch=None))]
 fn rehearse<'py>(
@@ -216,7 +216,7 @@ fn read<T: DeserializeOwned>(py: Python<'_>, settings: &str) -> PyResult<T> {
         .map_err(|error| faults::setting(py, &Fault::new("bad-setting", error.to_string())))
 }
 
-/// Targets to learn from, and targets that judge.
+/// Targets for training, and targets for tests.
 fn cases(py: Python<'_>, tasks: &[Py<PyTask>], held_out: &[Py<PyTask>]) -> PyResult<Vec<Case>> {
     let case = |task: &Py<PyTask>, held_out| Ok(Case { task: task.get().keeping_all(py)?, held_out });
     let learned = tasks.iter().map(|task| case(task, false));
@@ -224,7 +224,7 @@ fn cases(py: Python<'_>, tasks: &[Py<PyTask>], held_out: &[Py<PyTask>]) -> PyRes
     learned.chain(judged).collect()
 }
 
-/// Puts this part into the module.
+/// Registers the classes and functions of this file.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyGuide>()?;
     module.add_class::<PyLessons>()?;

@@ -1,11 +1,11 @@
-//! Host functions: Python that a model calls.
+//! Host functions: Python functions that a model calls.
 //!
-//! They take turns: in a process one of them runs at a time, because libraries that were not written for threads break where two
-//! threads are inside of them. A function that was marked with `@host(threads=True)` waits for nobody. While a host function searches
-//! itself, its turn is lent to the functions of that search ([`lend`]).
+//! Host functions take turns: one of them runs at a time in a process, because libraries that were not written for threads break if two
+//! threads run in them. A function with `@host(threads=True)` does not wait. While a host function searches
+//! itself, the functions of that search have its turn ([`lend`]).
 //!
-//! An exception makes the run invalid. `KeyboardInterrupt`, `SystemExit`, whatever else is no `Exception`, and `MemoryError` are
-//! not about the model: they are kept beside the search, end it, and are raised from it ([`Hosts::raised`]).
+//! An exception makes the run invalid. `KeyboardInterrupt`, `SystemExit`, other objects that are no `Exception`, and `MemoryError` are
+//! not about the model: they end the search, which raises them ([`Hosts::raised`]).
 
 use crate::forks::end_if_forked;
 use crate::values::Classes;
@@ -20,7 +20,7 @@ use std::any::Any;
 use std::cell::RefCell;
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 
-/// A function of the host.
+/// Function of the host.
 struct Function {
     callable: Py<PyAny>,
     /// Whether it may run on several threads at once.
@@ -38,7 +38,7 @@ impl Function {
 pub struct PyHosts {
     functions: Vec<Option<Function>>,
     classes: Arc<Classes>,
-    /// What one of them raised that is not about the model.
+    /// The exception of a function that is not about the model.
     raised: Mutex<Option<PyErr>>,
 }
 
@@ -46,7 +46,7 @@ impl PyHosts {
     /// The functions among these constants.
     ///
     /// # Errors
-    /// What an object raises that is asked whether it may run on several threads.
+    /// The exception of an object, when its attribute about threads is read.
     pub fn new(constants: Vec<Option<Bound<'_, PyAny>>>, classes: Arc<Classes>) -> PyResult<PyHosts> {
         let function = |callable: Bound<'_, PyAny>| {
             let threads =
@@ -57,7 +57,7 @@ impl PyHosts {
         Ok(PyHosts { functions: functions.collect::<PyResult<_>>()?, classes, raised: Mutex::new(None) })
     }
 
-    /// An exception as a fault of the program, and whether it is about the model: any other is kept, and ends the search.
+    /// Converts an exception to a fault of the program; an exception that is not about the model is stored, and ends the search.
     fn failed(&self, py: Python<'_>, function: &Function, error: PyErr) -> (Fault, bool) {
         let name = function.name(py);
         let kind = error.get_type(py).name().map_or_else(|_| "an error".into(), |name| name.to_string());
@@ -124,10 +124,10 @@ impl Hosts for WithProposals {
     }
 }
 
-/// Raises what a host function raised that is not about the model.
+/// Raises the exception of a host function that is not about the model.
 ///
 /// # Errors
-/// That.
+/// The exception.
 pub fn check(hosts: &dyn Hosts) -> PyResult<()> {
     match hosts.raised().map(|raised| raised.downcast::<PyErr>()) {
         Some(Ok(error)) => Err(*error),
@@ -135,7 +135,7 @@ pub fn check(hosts: &dyn Hosts) -> PyResult<()> {
     }
 }
 
-/// The turn of a process: whether somebody has it.
+/// Queue of a process for its turn.
 struct Queue {
     process: u32,
     taken: Mutex<bool>,
@@ -143,8 +143,8 @@ struct Queue {
 }
 
 impl Queue {
-    /// Whether this is a child that was forked by who has the turn: the threads of its queue are not there, and one of them may
-    /// have been at its locks.
+    /// Whether this process was forked by the thread that has the turn: the threads of its queue do not exist here, and one of them may
+    /// have held its locks.
     fn is_foreign(&self) -> bool {
         self.process != std::process::id()
     }
@@ -171,7 +171,7 @@ impl Queue {
 }
 
 /// The queue of this process. As for the pools of threads, this lock is taken only with the interpreter's lock, which a fork has,
-/// too: no child finds it taken. A child has a queue of its own.
+/// too, so no child finds it locked. A child has a queue of its own.
 static QUEUE: Mutex<Option<Arc<Queue>>> = Mutex::new(None);
 
 thread_local! {
@@ -179,11 +179,11 @@ thread_local! {
     static MINE: RefCell<Option<Arc<Queue>>> = const { RefCell::new(None) };
 }
 
-/// The turn of a host function; it is over when this is dropped.
+/// Turn of a host function, which ends with the drop of this value.
 struct Turn;
 
 impl Turn {
-    /// Waits for the turn, without the interpreter's lock: whoever has the turn may need it.
+    /// Waits for the turn without the interpreter's lock, because the thread that has the turn may need the lock.
     ///
     /// A thread that has the turn and calls another host function (a short search on the same thread) keeps it.
     fn take(py: Python<'_>) -> Option<Turn> {
@@ -213,7 +213,7 @@ impl Drop for Turn {
     }
 }
 
-/// Lends the turn of this thread, where it has it, to whoever works for `work` on other threads. The interpreter's lock is
+/// Lends the turn of this thread, if it has the turn, to the threads that run parts of `work`. The interpreter's lock is
 /// not held: see [`Turn::take`].
 pub fn lend<T>(work: impl FnOnce() -> T) -> T {
     /// Takes the turn again, also after a panic.

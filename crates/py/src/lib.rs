@@ -1,15 +1,15 @@
 //! The binding between Python and the engine: the only crate that knows Python.
 //!
-//! One file for each part; this file only registers them.
+//! This file registers the parts; each part is a file.
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
 //! * `model`: compiled models; `hosts`: the Python that they call; `search`: algorithms; `chains`: Markov chains;
-//!   `runs`: finished runs; `gradients`: log densities with their gradients; `positions`: where shapes are, with theirs;
-//!   `trajectories`: chains that follow them; `normals`: normals near a distribution;
+//!   `runs`: finished runs; `gradients`: log densities with gradients; `positions`: places of shapes with derivatives;
+//!   `trajectories`: chains that follow a gradient; `normals`: normals near a distribution;
 //!   `networks`: networks of guides, for a comparison with other software;
-//! * `machine`: what the engine finds on this machine; `threads`: the pools of threads;
+//! * `machine`: abilities of this machine; `threads`: the pools of threads;
 //!   `shared`: values that several threads of Python use;
-//! * `checkpoints`: what a search needs to go on after it was killed;
+//! * `checkpoints`: parts from which a search resumes;
 //! * `distributions`, `geometry`, `views`, `pictures`: parts of the lower crates.
 
 #![cfg_attr(not(test), warn(clippy::cast_possible_truncation))]

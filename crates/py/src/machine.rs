@@ -1,12 +1,12 @@
-//! What the engine finds on this machine, for `niwaki doctor`: threads, vectors, machine code.
+//! Abilities of this machine, for `niwaki doctor`: threads, vector instructions, machine code.
 
 use crate::threads::Pool;
 use niwaki_grad::kernels::Vectors;
 use niwaki_grad::{Density, Graph, Native};
 use pyo3::prelude::*;
 
-/// How many threads a search takes, and the vector instructions that gradients use: `AVX-512`, `AVX2`, or `any` for
-/// those of any processor; and whether gradients are compiled to machine code here.
+/// The number of threads of a search; the vector instructions of gradients: `AVX-512`, `AVX2`, or `any` for
+/// those of any processor; whether gradients are compiled to machine code.
 #[pyfunction]
 fn machine(py: Python<'_>) -> PyResult<(usize, &'static str, bool)> {
     let pool = Pool::borrow(py, None)?;
@@ -20,7 +20,7 @@ fn machine(py: Python<'_>) -> PyResult<(usize, &'static str, bool)> {
     Ok((threads, vectors, compiles()))
 }
 
-/// Whether machine code can be made here: by the density x² of one number. The processor or the system may say no.
+/// Whether machine code can be made here; tries the density x² of one number.
 fn compiles() -> bool {
     let mut graph = Graph::new();
     let x = graph.input();
@@ -28,7 +28,7 @@ fn compiles() -> bool {
     Native::compile(&Density::new(graph, value, &[])).is_ok()
 }
 
-/// Puts this part into the module.
+/// Registers the classes and functions of this file.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(machine, module)?)
 }

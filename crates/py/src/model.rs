@@ -1,4 +1,4 @@
-//! A compiled model for Python: from the text of its core form and the objects that come with it.
+//! Compiled models for Python, from the text of a core form and its constants.
 
 use crate::faults;
 use crate::hosts::PyHosts;
@@ -20,7 +20,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
-/// A compiled model; never changes, and serves any number of searches at once.
+/// Immutable compiled model, for any number of searches at once.
 #[pyclass(frozen, name = "Program", module = "niwaki._engine")]
 pub struct PyProgram {
     pub program: Arc<Program>,
@@ -28,25 +28,25 @@ pub struct PyProgram {
     hosts: Arc<dyn Hosts>,
     methods: Arc<HashMap<u16, Inner>>,
     seconds: f64,
-    /// What it was compiled from.
+    /// The module of the core form.
     module: Module,
     data: Vec<Value>,
-    /// The program that keeps all variables, once it was needed.
+    /// The program that keeps all variables, compiled at its first use.
     observed: OnceLock<Arc<Program>>,
 }
 
 impl PyProgram {
-    /// Its host functions; inner runs are limited as the outer ones.
+    /// The host functions; inner runs have the limits of outer runs.
     pub fn hosts(&self, limits: Limits) -> Arc<dyn Hosts> {
         if self.has_inferences() { Arc::new(self.inferences(limits)) } else { self.hosts.clone() }
     }
 
-    /// Whether it has inferences inside.
+    /// Whether the program has inferences inside.
     pub fn has_inferences(&self) -> bool {
         !self.methods.is_empty()
     }
 
-    /// The program compiled so that these variables can be read at choices; otherwise it is the same.
+    /// Compiles the program so that these variables can be read at choices.
     pub fn keeping(&self, py: Python<'_>, names: &[Name]) -> PyResult<Arc<Program>> {
         let compiled = compile_with_scope(&self.module, self.data.clone(), Scope::Names(names));
         compiled.map(Arc::new).map_err(|e| faults::uncompiled(py, e.to_string()))
@@ -63,7 +63,7 @@ impl PyProgram {
         compile(&self.module, data).map_err(|error| Fault::new("machine-limit", error.to_string()))
     }
 
-    /// The program compiled so that all variables can be read at choices, once.
+    /// Compiles the program so that all variables can be read at choices, at the first call.
     pub fn keeping_all(&self, py: Python<'_>) -> PyResult<Arc<Program>> {
         if let Some(known) = self.observed.get() {
             return Ok(known.clone());
@@ -124,7 +124,7 @@ impl PyProgram {
         })
     }
 
-    /// Seconds that compiling the text took.
+    /// The seconds of the compilation.
     #[getter]
     fn seconds(&self) -> f64 {
         self.seconds
@@ -161,7 +161,7 @@ impl PyProgram {
     }
 }
 
-/// Puts this part into the module.
+/// Registers the classes and functions of this file.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyProgram>()
 }

@@ -9,7 +9,7 @@ use pyo3::types::PyBytes;
 use serde::Deserialize;
 use std::fmt::Display;
 
-/// A choice, as JSON has it.
+/// Choice as JSON.
 #[derive(Deserialize)]
 struct Row {
     site: usize,
@@ -18,14 +18,14 @@ struct Row {
     lesson: Lesson,
 }
 
-/// Two lists of numbers.
+/// Pair of lists of numbers.
 type Pair<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 
 fn refused(what: impl Display) -> PyErr {
     PyValueError::new_err(what.to_string())
 }
 
-/// The bytes of a network before training; `form` is JSON.
+/// Makes a network before training, as bytes; `form` is JSON.
 #[pyfunction]
 fn guide_net<'py>(py: Python<'py>, form: &str, seed: u64) -> PyResult<Bound<'py, PyBytes>> {
     let form: NetForm = serde_json::from_str(form).map_err(refused)?;

@@ -21,7 +21,7 @@ type Table<'py> = Bound<'py, PyArray2<f64>>;
 pub struct PyNormals {
     task: Py<PyTask>,
     normals: Vec<Approximated>,
-    /// Whether they were stopped before their end.
+    /// Whether the search was stopped before its end.
     #[pyo3(get)]
     interrupted: bool,
 }
@@ -53,7 +53,7 @@ impl PyNormals {
         Ok(PyNormals { task, normals, interrupted })
     }
 
-    /// How many normals there are.
+    /// The number of normals.
     #[getter]
     fn chains(&self) -> usize {
         self.normals.len()
@@ -76,7 +76,7 @@ impl PyNormals {
         PyArray1::from_slice(py, &normal.x).reshape([normal.log_density.len(), normal.normal.dim()])
     }
 
-    /// Of each draw of a normal, over coordinates: its log density, and its log densities under the normal and under equal
+    /// Log densities of each draw of a normal, over coordinates: under the model, under the normal, and under equal
     /// shares of all normals, nats.
     fn densities<'py>(
         &self,
@@ -96,7 +96,7 @@ impl PyNormals {
         Ok((of(&normal.z)?, of(&normal.slopes)?))
     }
 
-    /// Of each draw of a normal, by running it: log densities of the choices, and of factors and observations, nats.
+    /// Log densities of each draw of a normal, by a run of the model: of choices, and of factors and observations, nats.
     fn scores<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<(Reals<'py>, Reals<'py>)> {
         let (own, normal) = (self.task.get(), self.normal(chain)?);
         let scores = Pool::inside(py, || normal.scores(&own.task))?;
@@ -122,7 +122,7 @@ impl PyNormals {
         Ok(PyArray1::from_slice(py, &self.normal(chain)?.bounds))
     }
 
-    /// Of a normal: ``impossible`` draws, whether it ``converged``, the ``gradients`` taken, the step of a path that is its
+    /// Statistics of a normal: ``impossible`` draws, whether it ``converged``, the number of ``gradients``, the step of a path that is its
     /// ``best`` or None, the step at which an ascent ``broke`` off or None, and the ``path_bound`` of the normal from which
     /// an ascent started, with its standard error, or None.
     fn counters<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<Bound<'py, PyDict>> {
@@ -136,7 +136,7 @@ impl PyNormals {
         Ok(facts)
     }
 
-    /// The fault where an ascent broke off: an exception, or None.
+    /// The fault at which an ascent broke off: an exception, or None.
     fn fault(&self, py: Python<'_>, chain: usize) -> PyResult<Option<PyErr>> {
         let program = &self.task.get().task.program;
         let fault = self.normal(chain)?.fault.clone();
@@ -150,7 +150,7 @@ impl PyNormals {
     }
 }
 
-/// Puts this part into the module.
+/// Registers the classes and functions of this file.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyNormals>()
 }

@@ -1,4 +1,4 @@
-//! Shapes as pictures and as meshes. The interpreter's lock is released while meshes are made and rays are traced.
+//! Pictures and meshes of shapes. The interpreter's lock is released while meshes are made and rays are traced.
 
 use crate::geometry::PyShape;
 use crate::threads::Pool;
@@ -18,7 +18,7 @@ type Table<'py, T> = Bound<'py, PyArray2<T>>;
 type Arrays<'py> =
     (Table<'py, f64>, Table<'py, u32>, Table<'py, f64>, (Bound<'py, PyArray1<f64>>, Table<'py, f64>));
 
-/// Registers this part.
+/// Registers the functions of this file.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(render_meshes, module)?)?;
     module.add_function(wrap_pyfunction!(frame_camera, module)?)?;
@@ -64,7 +64,7 @@ fn render_meshes<'py>(
     bytes.into_pyarray(py).reshape([height, width, 4])
 }
 
-/// The camera `(eye, target, up, fov_y)` that shows all surfaces and `points` `(n, 3)` from a side, tightly.
+/// Fits a camera `(eye, target, up, fov_y)` tightly around all surfaces and `points` `(n, 3)`, seen from a side.
 #[pyfunction]
 #[pyo3(signature = (surfaces, points=None, *, azimuth=None, elevation=None, fov_y=None, margin=None, aspect=4.0 / 3.0))]
 fn frame_camera(
@@ -96,7 +96,7 @@ fn frame_camera(
 }
 
 /// The meshes of pictures and files (``fine``), or those that scores see, in the world: of each group of shapes one mesh
-/// `(vertices (n, 3), faces (m, 3), unit normals (n, 3), frame)`. A light one has no normals. The frame is that of the
+/// `(vertices (n, 3), faces (m, 3), unit normals (n, 3), frame)`. A light mesh has no normals. The frame is that of the
 /// group's first shape: its origin (3,), and its axes as columns (3, 3).
 #[pyfunction]
 #[pyo3(signature = (groups, *, fine=true))]
@@ -117,7 +117,7 @@ fn meshes(py: Python<'_>, groups: Vec<Vec<PyShape>>, fine: bool) -> PyResult<Vec
     groups.iter().zip(joined).map(|(group, mesh)| array(group, mesh)).collect()
 }
 
-/// Rows of three, as they are in memory.
+/// Copies rows of three as they are in memory.
 fn table<T: Element>(py: Python<'_>, rows: Vec<[T; 3]>) -> PyResult<Bound<'_, PyArray2<T>>> {
     let count = rows.len();
     PyArray1::from_vec(py, rows.into_flattened()).reshape([count, 3])
@@ -129,7 +129,7 @@ struct PySurfaces(Vec<Surface>);
 
 #[pymethods]
 impl PySurfaces {
-    /// Of `(shape, sRGB colour, (gloss, metal, rough, pitch))`.
+    /// Surfaces of `(shape, sRGB colour, (gloss, metal, rough, pitch))`.
     #[new]
     fn new(py: Python<'_>, painted: Vec<Painted>) -> PySurfaces {
         let surface = |(shape, color, [gloss, metal, rough, pitch]): Painted| {

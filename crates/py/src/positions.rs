@@ -11,7 +11,7 @@ use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// A task whose shapes are placed, around one run.
+/// Task whose shapes are placed, around one run.
 #[pyclass(frozen, name = "Placer", module = "niwaki._engine")]
 pub struct PyPlacer {
     placer: Placer,
@@ -28,7 +28,7 @@ impl PyPlacer {
 
 #[pymethods]
 impl PyPlacer {
-    /// The positions where the choices have these ``values``, by address, and the others those of the run. Real choices
+    /// Positions of shapes for ``values`` of choices by address; other choices have the values of the run. Real choices
     /// among ``free`` may move, and the numbers of ``arguments`` and ``constants``, by their places, which come first.
     #[pyo3(signature = (values, free, arguments=BTreeMap::new(), constants=BTreeMap::new()))]
     fn positions(
@@ -55,7 +55,7 @@ impl PyPlacer {
     }
 }
 
-/// Where the shapes of a run are, by what may move.
+/// Places of the shapes of a run, as functions of the movable numbers.
 #[pyclass(frozen, name = "Positions", module = "niwaki._engine")]
 pub struct PyPositions {
     positions: Positions,
@@ -74,13 +74,13 @@ impl PyPositions {
 
 #[pymethods]
 impl PyPositions {
-    /// What may move: (address, readable address, is an angle). Of an argument or a constant: its place, no address.
+    /// The movable numbers: (address, readable address, is an angle); for an argument or a constant its place, and no address.
     #[getter]
     fn movables(&self) -> Vec<(u128, String, bool)> {
         self.positions.movables.iter().map(|one| (one.address, one.path.clone(), one.is_angle)).collect()
     }
 
-    /// Of each: value, lower and upper bound, usual variation; shape (n, 4).
+    /// Value, lower and upper bound, and usual variation of each movable number; shape (n, 4).
     fn ranges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let all = &self.positions.movables;
         let numbers: Vec<f64> =
@@ -89,7 +89,7 @@ impl PyPositions {
     }
 
     /// The values, by address, of choices that keep their places in distributions that arguments or constants change, where
-    /// what may move has the values ``x``.
+    /// the movable numbers have the values ``x``.
     fn followed(&self, py: Python<'_>, x: Vec<f64>) -> PyResult<HashMap<u128, f64>> {
         if x.len() != self.positions.movables.len() {
             return Err(PyIndexError::new_err(format!(
@@ -107,7 +107,7 @@ impl PyPositions {
         self.positions.parts.iter().map(|(path, shapes)| (path.clone(), shapes.len())).collect()
     }
 
-    /// The middle of a shape and its three directions, scene units, shape (4, 3); None where nothing moves it.
+    /// The middle of a shape and its three directions, scene units, shape (4, 3); None if nothing moves the shape.
     fn frame<'py>(
         &self,
         py: Python<'py>,
@@ -119,7 +119,7 @@ impl PyPositions {
         frame.map(|numbers| PyArray1::from_vec(py, numbers).reshape([4, 3])).transpose()
     }
 
-    /// The derivatives of ``middle + shares @ directions`` by what may move, shape (3, n); None as for ``frame``.
+    /// The derivatives of ``middle + shares @ directions`` by the movable numbers, shape (3, n); None as for ``frame``.
     fn slopes<'py>(
         &self,
         py: Python<'py>,
@@ -134,7 +134,7 @@ impl PyPositions {
     }
 }
 
-/// Puts this part into the module.
+/// Registers the classes and functions of this file.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyPlacer>()?;
     module.add_class::<PyPositions>()

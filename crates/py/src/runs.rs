@@ -14,7 +14,7 @@ use pyo3::types::PyDict;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// One finished run: scores, and choices by hash.
+/// Finished run: scores, and choices by hash.
 #[pyclass(frozen, name = "Run", module = "niwaki._engine")]
 pub struct PyRun {
     run: Arc<Run>,
@@ -26,7 +26,7 @@ impl PyRun {
         PyRun { run, classes }
     }
 
-    /// The run of what [`PyRun::data`] gave, without what the model returned, and with `shift` added to its log weight.
+    /// Reads a run from [`PyRun::data`], without the returned value, and with `shift` added to its log weight.
     pub fn of_data(data: &str, shift: f64, classes: Arc<Classes>) -> PyResult<PyRun> {
         let mut run: Run = serde_json::from_str(data).map_err(unreadable)?;
         run.log_weight += shift;
@@ -94,25 +94,25 @@ impl PyRun {
         self.run.has_ended
     }
 
-    /// What made it impossible.
+    /// The cause that made the run impossible.
     #[getter]
     fn cause(&self) -> Option<&str> {
         self.run.cause.as_deref()
     }
 
-    /// Whether it was read from data, so that its value is that of a replay.
+    /// Whether the run was read from data, so that only a replay has its value.
     #[getter]
     fn is_bare(&self) -> bool {
         self.run.is_bare
     }
 
-    /// Of a chain's state: the number of proposals before it.
+    /// The number of proposals before a state of a chain.
     #[getter]
     fn visit(&self) -> u64 {
         self.run.visit
     }
 
-    /// What the model returned; None for a run that did not end.
+    /// The value that the model returned; None for a run that did not end.
     #[getter]
     fn value<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.classes.object(py, &self.run.value)
@@ -129,14 +129,14 @@ impl PyRun {
     }
 }
 
-/// A choice with its name.
+/// Choice with its name.
 #[pyclass(frozen, get_all, name = "Choice", module = "niwaki._engine")]
 pub struct PyChoice {
     /// Its readable address.
     path: String,
     /// Hash of the address.
     address: u128,
-    /// The family that it was drawn from.
+    /// The family of its distribution.
     family: &'static str,
     /// Its value.
     value: Py<PyAny>,
@@ -152,7 +152,7 @@ impl PyChoice {
     }
 }
 
-/// A run with names.
+/// Run with names.
 #[pyclass(frozen, get_all, name = "Trace", module = "niwaki._engine")]
 pub struct PyTrace {
     /// The run.
@@ -190,7 +190,7 @@ fn choices_of(py: Python<'_>, runs: &[Py<PyRun>]) -> Choices {
     py.detach(|| Choices::of(runs.iter().map(|run| &run.get().run.log)))
 }
 
-/// How many runs there are of which no other has more than half of the choices.
+/// The number of runs of which no two share more than half of their choices.
 #[pyfunction]
 fn unique_models(py: Python<'_>, runs: Vec<Py<PyRun>>) -> usize {
     let choices = choices_of(py, &runs);
@@ -205,7 +205,7 @@ fn different(py: Python<'_>, runs: Vec<Py<PyRun>>, k: usize) -> Vec<usize> {
     py.detach(|| choices.choose(&ranked, k))
 }
 
-/// Puts this part into the module.
+/// Registers the classes and functions of this file.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(unique_models, module)?)?;
     module.add_function(wrap_pyfunction!(different, module)?)?;

@@ -56,7 +56,7 @@ use std::time::Duration;
 /// Time between two calls of the callback.
 const PAUSE: Duration = Duration::from_millis(50);
 
-/// The progress of a search, and whether it should stop.
+/// Progress of a search, and whether it should stop.
 #[derive(Default)]
 pub(crate) struct Watch {
     stop: AtomicBool,
@@ -66,7 +66,7 @@ pub(crate) struct Watch {
     pub(crate) shown: Shown,
 }
 
-/// The callback of a user, and the classes of the model.
+/// Callback of a user, with the classes of the model.
 pub(crate) type Caller<'a> = (&'a Py<PyAny>, &'a Arc<Classes>);
 
 impl Watch {
@@ -91,7 +91,7 @@ impl Watch {
     }
 }
 
-/// Refuses to go on where nearly no memory is left: the system would end the process.
+/// Refuses to continue if nearly no memory is left, because the system would end the process.
 fn check_left() -> PyResult<()> {
     Python::attach(|py| py.import("niwaki.errors.memory")?.call_method0("check_left").map(|_| ()))
 }
@@ -186,7 +186,7 @@ impl PyTask {
         Ok(PyTask { task, model: program.clone_ref(py) })
     }
 
-    /// The same task with choices held: ``lock`` has their values, by readable address.
+    /// Copies the task with held choices: ``lock`` has their values by readable address.
     fn holding(&self, py: Python<'_>, lock: &Bound<'_, PyDict>) -> PyResult<PyTask> {
         let mut choices: Vec<(String, Value)> = Vec::new();
         for (path, value) in lock {
@@ -196,12 +196,12 @@ impl PyTask {
         Ok(PyTask { task, model: self.model.clone_ref(py) })
     }
 
-    /// The same task, with no run counted yet.
+    /// Copies the task with fresh counters of invalid runs.
     fn uncounted(&self, py: Python<'_>) -> PyTask {
         PyTask { task: self.task.uncounted(), model: self.model.clone_ref(py) }
     }
 
-    /// Invalid runs of its searches by place: what is called, file, line, how many, and of one of them the call and why it
+    /// Invalid runs of its searches by place: name of the callee, file, line, number, and for one of them the call and why it
     /// has no result.
     fn invalid(&self) -> Vec<(String, String, u32, u64, String, String)> {
         let of = |(place, count): (invalid::Place, InvalidCount)| {
@@ -233,7 +233,7 @@ impl PyTask {
 
     /// Searches by a method, given as its text: the finished runs, whether the search was interrupted, and a dict of
     /// further results of the method. ``attached`` are the users' proposals and guides that kernels name by number; ``start`` is the
-    /// run that a chain of whole runs starts from; a search for the best goes on from its ``checkpoint``.
+    /// run from which a chain of whole runs starts; a search for the best resumes from its ``checkpoint``.
     #[pyo3(signature = (method, seed, *, attached=Vec::new(), start=None, threads=None, watch=None, checkpoint=None))]
     #[expect(clippy::too_many_arguments, reason = "the settings of a search")]
     fn search<'py>(
@@ -287,8 +287,8 @@ impl PyTask {
         self.object(py, &value)
     }
 
-    /// Grows the one part of a run that a pattern matches again, by particles; everything else stays as it is. The runs that are
-    /// possible, with their weights.
+    /// Grows the one part of a run that a pattern matches again, by particles; everything else stays as it is. The possible
+    /// runs, with their weights.
     #[pyo3(signature = (run, part, particles, power, seed, threads=None))]
     #[expect(clippy::too_many_arguments, reason = "the settings of a search")]
     fn regrow(
@@ -317,7 +317,7 @@ impl PyTask {
         Ok(PyDensity::new(live, self.task.clone(), self.model.get().classes.clone()))
     }
 
-    /// What places the shapes of runs with the choices of this one, some of them moved.
+    /// Placer of the shapes of runs with the choices of this run, some of them moved.
     fn placer(&self, py: Python<'_>, run: &PyRun) -> PyResult<PyPlacer> {
         let placer = Placer::new(&self.task).map_err(|failure| faults::ended(py, &failure, &self.task))?;
         Ok(PyPlacer::new(placer, run.by_address(), self.task.clone(), self.model.clone_ref(py)))
@@ -338,14 +338,14 @@ impl PyTask {
         Ok(run.scores().0 - trace.sums.1.value() - empty)
     }
 
-    /// The run of what ``Run.data`` gave, without what the model returned; ``shift`` is added to its log weight.
+    /// Reads a run from ``Run.data``, without the returned value; ``shift`` is added to its log weight.
     #[pyo3(signature = (data, shift=0.0))]
     fn run_of_data(&self, data: &str, shift: f64) -> PyResult<PyRun> {
         PyRun::of_data(data, shift, self.model.get().classes.clone())
     }
 
-    /// Runs with the choices of ``choices``, by readable address. Others are drawn from ``seed`` where there is one;
-    /// else they are a fault, or with ``partial`` the end of their future.
+    /// Runs the task with ``choices`` by readable address. ``seed`` draws missing choices; without it
+    /// they are a fault, or with ``partial`` the end of their future.
     #[pyo3(signature = (choices, seed=None, partial=false))]
     fn replay(
         &self,

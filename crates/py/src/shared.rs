@@ -1,8 +1,8 @@
-//! A value that several threads of Python use, one at a time, and that a fork may find in use.
+//! Values that several threads of Python use, one thread at a time, and that may be in use at a fork.
 //!
-//! Who waits does so without the interpreter's lock, so the one who uses the value can take it for a host function.
-//! In a child of a fork, a value that a thread of the parent was using is only half changed and its user is not there:
-//! using it is an error, and not an endless wait.
+//! A thread waits without the interpreter's lock, so the user of the value can take the lock for a host function.
+//! In a child of a fork, a value that a thread of the parent was using is only half changed, and its user does not exist:
+//! its use is an error, and not an endless wait.
 
 use crate::faults;
 use niwaki_vm::fault::Fault;
@@ -15,23 +15,23 @@ use std::time::Duration;
 /// Time between two looks at a value in use.
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// Nobody uses the value.
+/// Mark of a value without a user.
 const FREE: u64 = 0;
 
 /// A value with its user: a process in the upper half, one of its threads in the lower one.
 pub struct Shared<T> {
     user: AtomicU64,
-    /// Taken only by the user, so nobody waits for it.
+    /// Only the user takes this lock, so no thread waits for it.
     value: Mutex<T>,
 }
 
-/// The value, for its user.
+/// Value in the hands of its user.
 pub struct Using<'a, T> {
     value: MutexGuard<'a, T>,
     _then: Leaving<'a>,
 }
 
-/// Dropped after the value.
+/// This field is dropped after the value.
 struct Leaving<'a>(&'a AtomicU64);
 
 impl Drop for Leaving<'_> {
@@ -41,16 +41,16 @@ impl Drop for Leaving<'_> {
 }
 
 impl<T> Shared<T> {
-    /// A value that nobody uses.
+    /// Makes a value without a user.
     pub fn new(value: T) -> Shared<T> {
         Shared { user: AtomicU64::new(FREE), value: Mutex::new(value) }
     }
 
-    /// Refuses where waiting would have no end: a thread of the parent process was using the value at a fork, or this
+    /// Refuses an endless wait: a thread of the parent process was using the value at a fork, or this
     /// thread is using it (in the callback of a search).
     ///
     /// # Errors
-    /// Those.
+    /// The two cases above.
     pub fn check(&self, py: Python<'_>) -> PyResult<()> {
         let (user, me) = (self.user.load(Ordering::Relaxed), this_thread());
         let reason = match user {
@@ -62,7 +62,7 @@ impl<T> Shared<T> {
         Err(faults::setting(py, &Fault::new("in-use", reason)))
     }
 
-    /// The value, once nobody else uses it.
+    /// Waits until no other thread uses the value, and takes it.
     ///
     /// # Errors
     /// As for [`Shared::check`]; Ctrl-C.

@@ -1,7 +1,7 @@
-//! The threads of the engine: the pools in which its parallel parts run, also after a fork.
+//! Pools of threads for the parallel parts of the engine, also after a fork.
 //!
-//! A fork copies the memory of a process, but of its threads only the one that calls it. A pool from before has no thread
-//! in the child, so work that is given to it is never done. Here a pool knows the process that made it: a child builds
+//! A fork copies the memory of a process, but only the thread that calls it. A pool of the parent has no thread
+//! in the child, so its work would never be done. Here a pool knows the process that made it: a child builds
 //! its own. Everything in this crate that can run in parallel is inside of [`Pool::inside`]; the pool that Rayon would
 //! make for the whole process has no such memory, and is never used.
 //!
@@ -20,22 +20,22 @@ use std::sync::{Mutex, PoisonError};
 /// interpreter's lock, too, so no child finds this one taken.
 static IDLE: Mutex<Vec<Pool>> = Mutex::new(Vec::new());
 
-/// How many pools wait at most.
+/// The most pools that wait.
 const KEPT: usize = 4;
 
-/// Threads of one process.
+/// Pool of threads of one process.
 pub struct Pool {
     threads: ThreadPool,
-    /// How many were asked for; `None` for as many as the machine has.
+    /// The requested number of threads; `None` for all threads of the machine.
     asked: Option<usize>,
     process: u32,
 }
 
 impl Pool {
-    /// A pool for one search: one that waits, or else a new one. Where no number is asked for, `RAYON_NUM_THREADS` may say one.
+    /// Borrows a pool for one search: a waiting pool, or else a new one. `RAYON_NUM_THREADS` is the default number of threads.
     ///
     /// # Errors
-    /// The variable names no number of threads; the system gives no more of them.
+    /// The variable is no number of threads; the system has no more threads.
     pub fn borrow(py: Python<'_>, asked: Option<usize>) -> PyResult<Pool> {
         let process = std::process::id();
         let asked = match asked {
@@ -43,7 +43,7 @@ impl Pool {
             None => py.import("niwaki.errors.settings")?.call_method0("usual_threads")?.extract()?,
         };
         let mut idle = waiting(py);
-        // Dropping a pool of the parent would tell threads that are not there to end.
+        // The drop of a pool of the parent would signal threads that do not exist here.
         for foreign in idle.extract_if(.., |pool| pool.process != process) {
             std::mem::forget(foreign);
         }
@@ -67,7 +67,7 @@ impl Pool {
         Ok(Pool { threads, asked, process })
     }
 
-    /// How many threads work in it.
+    /// The number of its threads.
     pub fn count(&self) -> usize {
         self.threads.current_num_threads()
     }

@@ -15,12 +15,12 @@ use pyo3::types::PyDict;
 
 type Reals<'py> = Bound<'py, PyArray1<f64>>;
 
-/// The draws of several chains of one seed.
+/// Draws of several chains with one seed.
 #[pyclass(frozen, name = "Trajectories", module = "niwaki._engine")]
 pub struct PyTrajectories {
     task: Py<PyTask>,
     chains: Vec<Explored>,
-    /// Whether they were stopped before their end.
+    /// Whether the chains were stopped before their end.
     #[pyo3(get)]
     interrupted: bool,
 }
@@ -53,7 +53,7 @@ impl PyTrajectories {
         Ok(PyTrajectories { task, chains, interrupted })
     }
 
-    /// How many chains there are.
+    /// The number of chains.
     #[getter]
     fn chains(&self) -> usize {
         self.chains.len()
@@ -82,7 +82,7 @@ impl PyTrajectories {
         PyArray1::from_slice(py, &draws.x).reshape([draws.len(), draws.dim])
     }
 
-    /// Of each draw of a chain: ``log_density`` (over coordinates) and ``energy``, nats, ``acceptance_rate``, ``n_steps``,
+    /// Statistics of each draw of a chain: ``log_density`` (over coordinates) and ``energy``, nats, ``acceptance_rate``, ``n_steps``,
     /// ``tree_depth``, and whether trajectories were ``diverging`` or ``refused_for_structure``.
     fn draws<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<Bound<'py, PyDict>> {
         let (chain, facts) = (self.chain(chain)?, PyDict::new(py));
@@ -97,7 +97,7 @@ impl PyTrajectories {
         Ok(facts)
     }
 
-    /// Of each draw of a chain, by running it: log densities of the choices, and of factors and observations, nats.
+    /// Log densities of each draw of a chain, by a run of the model: of choices, and of factors and observations, nats.
     fn scores<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<(Reals<'py>, Reals<'py>)> {
         let (own, chain) = (self.task.get(), self.chain(chain)?);
         let scores = Pool::inside(py, || chain.scores(&own.task))?;
@@ -106,7 +106,7 @@ impl PyTrajectories {
         Ok((PyArray1::from_vec(py, prior), PyArray1::from_vec(py, score)))
     }
 
-    /// Of a chain: ``step_size``, ``gradients`` (warm-up included) and ``divergences``: see [`broken_off`].
+    /// Statistics of a chain: ``step_size``, ``gradients`` (with the warm-up) and ``divergences``: see [`broken_off`].
     fn counters<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<Bound<'py, PyDict>> {
         let (draws, facts) = (&self.chain(chain)?.draws, PyDict::new(py));
         facts.set_item("step_size", draws.step_size)?;
@@ -129,7 +129,7 @@ impl PyTrajectories {
     }
 }
 
-/// How many trajectories broke off after the warm-up, by the reason: a dict with ``energy``, ``structure``,
+/// Counts of the trajectories that broke off after the warm-up, by the reason: a dict with ``energy``, ``structure``,
 /// ``impossible`` and ``not_finite``.
 pub fn broken_off<'py>(py: Python<'py>, broken: &BrokenOff) -> PyResult<Bound<'py, PyDict>> {
     let facts = PyDict::new(py);
@@ -140,7 +140,7 @@ pub fn broken_off<'py>(py: Python<'py>, broken: &BrokenOff) -> PyResult<Bound<'p
     Ok(facts)
 }
 
-/// Puts this part into the module.
+/// Registers the classes and functions of this file.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyTrajectories>()
 }

@@ -37,7 +37,7 @@ impl Classes {
         known.iter().find(|(own, _)| own.is(kind)).map(|(_, class)| class.clone())
     }
 
-    /// The machine's class for a type of records; a type that the program never makes itself is added.
+    /// The machine's class for a type of records; a type that the program does not know is added.
     fn of(&self, kind: &Bound<'_, PyType>) -> PyResult<Option<Arc<Class>>> {
         if let Some(known) = self.known(kind) {
             return Ok(Some(known));
@@ -67,7 +67,7 @@ impl Classes {
         known.iter().find(|(_, own)| own.id == class.id).map(|(kind, _)| kind.bind(py).clone())
     }
 
-    /// A Python object as a value.
+    /// Converts a Python object to a value.
     pub fn value(&self, object: &Bound<'_, PyAny>) -> PyResult<Value> {
         self.value_at(object, 0)
     }
@@ -130,7 +130,7 @@ impl Classes {
         Err(PyTypeError::new_err(format!("a value of type {kind}")))
     }
 
-    /// A value as a Python object.
+    /// Converts a value to a Python object.
     pub fn object<'py>(&self, py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
         self.object_at(py, value, 0)
     }
@@ -186,7 +186,7 @@ impl Classes {
     }
 }
 
-/// A value that Python only passes back: a function of a model.
+/// Value that Python only passes back: a function of a model.
 #[pyclass(frozen, name = "Opaque", module = "niwaki._engine")]
 pub struct Opaque(pub &'static str);
 
@@ -230,7 +230,7 @@ fn array(object: &Bound<'_, PyAny>) -> PyResult<Value> {
     Classes::default().value(object)
 }
 
-/// A distribution as one of `niwaki.words`.
+/// Converts a distribution to a class of `niwaki.words`.
 fn distribution<'py>(py: Python<'py>, dist: &Dist) -> PyResult<Bound<'py, PyAny>> {
     let row = |xs: &[f64]| PyTuple::new(py, xs).map(Bound::into_any);
     let part = |param: &Param| match param {
@@ -258,7 +258,7 @@ fn capital(word: &str) -> String {
     letters.next().map(|first| first.to_ascii_uppercase().to_string() + letters.as_str()).unwrap_or_default()
 }
 
-/// Puts this part into the module.
+/// Registers the classes and functions of this file.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<Opaque>()
 }

@@ -24,7 +24,7 @@ fn camera((position, look_at, up, perspective, number, near): Eye) -> Result<Cam
     Camera::new(position.into(), look_at.into(), up.into(), lens)
 }
 
-/// An image to match and the rays that tell which pixels of a scene are on.
+/// Image to match, with the rays that decide which pixels of a scene are on.
 #[pyclass(frozen, name = "Picture", module = "niwaki._engine")]
 pub struct PyPicture(pub Arc<Picture>);
 
@@ -79,14 +79,14 @@ impl PyPicture {
         self.0.on_fraction()
     }
 
-    /// Which pixels are on in a scene of ``shapes``, (rows, columns) bool.
+    /// The pixels that are on in a scene of ``shapes``, (rows, columns) bool.
     fn mask<'py>(&self, py: Python<'py>, shapes: Vec<PyShape>) -> Bound<'py, PyArray2<bool>> {
         let shapes: Vec<Shape> = shapes.into_iter().map(|s| s.0).collect();
         let mask = py.detach(|| self.0.mask(&[Primitive::new(shapes)]));
         self.array(py, &mask)
     }
 
-    /// Which pixels can be on at all, (rows, columns) bool: for shadows, those that see the receiver.
+    /// The pixels that can be on, (rows, columns) bool: for shadows, those that see the receiver.
     fn seen<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<bool>> {
         let mut seen = vec![false; self.0.size()[0] * self.0.size()[1]];
         self.0.rays().pixels().iter().for_each(|pixel| seen[*pixel as usize] = true);
@@ -133,7 +133,7 @@ impl PyDrawing {
         self.0.page().size().into()
     }
 
-    /// Which pixels a scene of ``shapes`` touches, (rows, columns) bool.
+    /// The pixels that a scene of ``shapes`` touches, (rows, columns) bool.
     fn mask<'py>(&self, py: Python<'py>, shapes: Vec<PyShape>) -> Bound<'py, PyArray2<bool>> {
         let shapes: Vec<Shape> = shapes.into_iter().map(|s| s.0).collect();
         let mask = py.detach(|| self.0.mask(&[Primitive::new(shapes)]));
@@ -141,7 +141,7 @@ impl PyDrawing {
     }
 }
 
-/// Puts this part into the module.
+/// Registers the classes and functions of this file.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyPicture>()?;
     module.add_class::<PyDrawing>()

@@ -129,7 +129,7 @@ def worded(range: Range, value: Any = None) -> str:
         case ("list", inner):
             return f"a list, each entry {worded(inner)}"
         case ("table",):
-            return "a table"
+            return "a `FutureOrder`"
         case ("optional", inner):
             return f"None or {worded(inner, value)}"
         case ("either", first, second):

@@ -141,4 +141,4 @@ def train_look_ahead(
             check_threads(threads) or cpu_count() or 1,
             watch,
         )
-    return Guide(engine.data()).reported({**guide.report, "look_ahead": {"seed": seed, **report}})
+    return Guide(engine.data()).with_report({**guide.report, "look_ahead": {"seed": seed, **report}})

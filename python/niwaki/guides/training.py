@@ -247,7 +247,7 @@ def train_guide(
         raise KeyboardInterrupt
     if best is start and not done_rounds:
         return best
-    return best.reported(
+    return best.with_report(
         {**about, "rounds": [report.data() for report in done_rounds], "interrupted": is_interrupted}
     )
 

@@ -1,4 +1,4 @@
-"""Methods as values. Settings are checked when a method is created.
+"""Methods as values. The engine checks their settings when a method is created.
 
 annealed    annealed importance sampling
 direct      forward runs, enumeration, rejection, likelihood weighting
@@ -7,12 +7,13 @@ chains      Metropolis-Hastings
 gradients   Hamiltonian Monte Carlo
 normals     variational inference
 improve     a search for the best run, by several of these
-order       an order of futures that was learned
+order       learned orders of futures
 guide       a network that draws choices in place of the prior
 kernels     Markov kernels, for chains
 method      the base class: a method as data
-checks      checks of settings
-room        whether the counts of a method fit into memory
+checks      checks of types: kernels, proposals, guides
+refusals    checks of settings by the engine
+room        estimates of the memory that the counts of a method need
 """
 
 from niwaki.methods.annealed import Ais, ais

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from niwaki.methods.checks import is_kernel
+from niwaki.methods.checks import check_kernel
 from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method
 from niwaki.methods.refusals import as_real
@@ -16,22 +16,22 @@ class Ais(Method):
     """Particles that a chain moves from the prior to the posterior, on a ladder of powers of the score (Neal 2001).
 
     The mean weight is unbiased for the evidence, and weighted particles follow the posterior, for every ladder and
-    every kernel: what the moves miss, the weights count. Runs may differ in structure.
+    every kernel, because the weights correct for the moves. Runs may differ in structure.
 
     Parameters
     ----------
     particles
-        How many, at least 2. They are independent, and run on all threads.
+        The number of particles, at least 2. They are independent, and run on all threads.
     powers
-        How many rungs the ladder has; or the powers of the score themselves, rising to 1. The k-th of n rungs has the
-        power `(k / n) ** 4`.
+        The number of rungs of the ladder, or the powers of the score, rising to 1. The k-th of n rungs has the power
+        `(k / n) ** 4`.
     kernel
-        How particles are moved, a value of `niwaki.kernels`; `kernels.prior()` when left out. It does not adapt: give
-        `drift` its scale, and `hmc_step` its step. No `anneal` and no `tempering`.
+        The kernel that moves particles, from `niwaki.kernels`; `kernels.prior()` when left out. It does not adapt: give
+        `drift` its scale, and `hmc_step` its step. `anneal` and `tempering` are refused.
     moves
-        Proposals for each particle at each rung.
+        The number of proposals for each particle at each rung.
     tries
-        Most forward runs for the first state of a particle, which must be possible.
+        The most forward runs for the first state of a particle, which must be possible.
     """
 
     NAME = "ais"
@@ -45,7 +45,7 @@ class Ais(Method):
         """Check the settings."""
         if isinstance(self.powers, (list, tuple)):
             self._set("powers", tuple(map(as_real, self.powers)))
-        is_kernel("kernel", self.kernel)
+        check_kernel("kernel", self.kernel)
         self._check()
 
 

@@ -4,36 +4,36 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from niwaki.methods.checks import is_kernel
+from niwaki.methods.checks import check_kernel
 from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method
 
 
 @dataclass(frozen=True)
 class Mh(Method):
-    """Markov chains: one state each, changed proposal by proposal (dissertation chapter 3).
+    """Markov chains of single runs, changed proposal by proposal (dissertation chapter 3).
 
     Parameters
     ----------
     steps
-        Proposals of each chain, warm-up included.
+        The number of proposals of each chain, with the warm-up.
     strategy
-        How much of the model is run again for a proposal: "c3" (from the changed choice on, skipping calls whose inputs
-        are unchanged), "resume" (from the choice on), "cache" (from the start, skipping), "rerun" (all of it). The
-        states are the same to the bit; only the time differs.
+        The part of the model that runs again for a proposal: "c3" (from the changed choice on, without calls whose
+        inputs are unchanged), "resume" (from the choice on), "cache" (from the start, without such calls), "rerun" (all
+        of it). The states are the same to the bit; only the time differs.
     kernel
-        How it proposes, a value of `niwaki.kernels`; `kernels.prior()` when left out.
+        The kernel that proposes, from `niwaki.kernels`; `kernels.prior()` when left out.
     chains
-        How many, side by side on the machine's threads.
+        The number of chains, which run side by side on the threads.
     thin
-        Proposals between two samples; when left out as many as give `keep` samples. It doubles when samples take too
+        The number of proposals between two samples; the default gives `keep` samples. It doubles when samples take too
         much memory.
     keep
-        About how many samples of each chain, 1000 when left out; 0 for none (the best state is always kept).
+        The approximate number of samples of each chain, 1000 when left out; 0 for none (the best state always stays).
     warmup
-        Proposals before the first sample; step sizes are adapted in them, and never after.
+        The number of proposals before the first sample. Step sizes are adapted in the warm-up only.
     tries
-        Most forward runs for a first state that is possible.
+        The most forward runs for a possible first state.
     """
 
     NAME = "mh"
@@ -48,7 +48,7 @@ class Mh(Method):
 
     def __post_init__(self) -> None:
         """Check the settings."""
-        is_kernel("kernel", self.kernel, "kernels.drift()")
+        check_kernel("kernel", self.kernel, "kernels.drift()")
         self._check()
 
 

@@ -1,4 +1,4 @@
-"""Checks of the settings of methods."""
+"""Checks of the types of settings: words, kernels, proposals and guides."""
 
 from __future__ import annotations
 
@@ -13,44 +13,44 @@ from niwaki.methods.kernels import Kernel
 
 
 def at_least_one(name: str, value: int) -> int:
-    """The value, where it is a whole number above zero."""
+    """Check a whole number above zero."""
     return count(name, value)
 
 
 def one_of(name: str, value: Any, words: tuple[str, ...]) -> None:
-    """Refuse a word that is not known."""
+    """Refuse an unknown word."""
     if value not in words:
         raise bad(name, value, worded(("words", words)), f'"{words[0]}"')
 
 
-def is_kernel(name: str, value: Any, usual: str = "kernels.prior()") -> None:
-    """Refuse what is neither None nor a kernel."""
+def check_kernel(name: str, value: Any, usual: str = "kernels.prior()") -> None:
+    """Refuse a value that is neither None nor a kernel."""
     if value is not None and not isinstance(value, Kernel):
         raise bad(name, value, "a kernel", f"one of `niwaki.kernels`, such as `{usual}`")
 
 
 def proposal(kernel: Any) -> None:
-    """Refuse what cannot draw the choices of a new run."""
+    """Refuse a kernel that cannot draw the choices of a new run."""
     if kernel is None:
         return
     usual = 'kernels.on("x", kernels.proposal(function))'
     if not isinstance(kernel, Kernel):
         raise bad("proposal", kernel, "a kernel from `kernels.proposal` or `kernels.guided`", usual)
-    weighted = kernel.name == "on" and not kernel.settings["sites"]
-    if kernel.name not in ("proposal", "guided", "on", "cycle") or weighted:
+    is_weighted = kernel.name == "on" and not kernel.settings["sites"]
+    if kernel.name not in ("proposal", "guided", "on", "cycle") or is_weighted:
         expected = "`proposal` or `guided`, `on` around them, or a `cycle` of those"
         raise bad("proposal", kernel, expected, usual)
     for part in kernel.parts:
         proposal(part)
 
 
-def guided(kernel: Kernel | None, guide: Guide | None) -> Kernel | None:
-    """The proposal that consists of a checked proposal and a guide for all other choices."""
+def with_guide(kernel: Kernel | None, guide: Guide | None) -> Kernel | None:
+    """Check a proposal, and add a guide for all other choices."""
     proposal(kernel)
     if guide is None:
         return kernel
-    own = kernels.guided(guide)
-    return own if kernel is None else kernels.cycle(kernel, own)
+    by_guide = kernels.guided(guide)
+    return by_guide if kernel is None else kernels.cycle(kernel, by_guide)
 
 
 def look_ahead(strength: Any, proposal: Kernel | None) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import InitVar, dataclass
 
-from niwaki.methods.checks import guided as with_guide
+from niwaki.methods.checks import with_guide
 from niwaki.methods.guide import Guide
 from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method
@@ -13,20 +13,20 @@ from niwaki.methods.refusals import as_real
 
 @dataclass(frozen=True)
 class EnumerateAll(Method):
-    """The exact distribution of a model's value, by visiting every run; an error where none is possible.
+    """Exact distribution of a model's value, by a visit of every run; an error if no run is possible.
 
     With `likely` only a part of the runs is visited, the likeliest first, and a whole number may be unbounded.
-    `Result.info` then bounds what was not seen.
+    `Result.info` then bounds the probability of the other runs.
 
     Parameters
     ----------
     max_runs
-        Most runs to visit, those that prove impossible included. More are an error, unless `likely` is set.
+        The most runs to visit, with impossible ones. More runs are an error, unless `likely` is set.
     likely
-        Stop after `max_runs`, each time going on with the branch whose joint probability so far is the largest.
+        Whether to stop after `max_runs`; the branch with the largest joint probability so far is visited first.
     rest
-        The most that the rest of a run can add to its log score, nats: 0 where each factor is at most 0 and each
-        observation is of a whole number or a truth value. It decides the bounds alone.
+        The most that the rest of a run can add to its log score, nats: 0 if each factor is at most 0 and each
+        observation is of a whole number or a truth value. Only the bounds depend on it.
     """
 
     NAME = "enumerate_all"
@@ -43,16 +43,16 @@ class EnumerateAll(Method):
 
 @dataclass(frozen=True)
 class Rejection(Method):
-    """Exact samples: forward runs, kept with probability `exp(log_score - bound)`.
+    """Exact samples: forward runs, accepted with probability `exp(log_score - bound)`.
 
     Parameters
     ----------
     n
-        How many samples.
+        The number of samples.
     bound
-        A log score that no run exceeds, nats; 0 serves for conditions.
+        A log score that no run exceeds, nats; 0 for models with conditions only.
     max_tries
-        Most runs to try.
+        The most runs to draw.
     """
 
     NAME = "rejection"
@@ -68,18 +68,18 @@ class Rejection(Method):
 
 @dataclass(frozen=True)
 class Importance(Method):
-    """Independent forward runs, each weighted by its score; an error where all are impossible.
+    """Independent forward runs, each weighted by its score; an error if all are impossible.
 
     Parameters
     ----------
     n
-        How many runs.
+        The number of runs.
     proposal
-        Who draws the choices that the prior does not: `kernels.on(pattern, kernels.proposal(function))`, or a `cycle`
-        of several, of which the first whose pattern matches a choice holds. The weights correct for it, so the
-        law and the evidence stay as they are.
+        The proposal that draws choices in place of the prior: `kernels.on(pattern, kernels.proposal(function))`, or a
+        `cycle` of several. The first pattern that matches a choice decides. The weights correct for the proposal, so
+        the distribution and the evidence stay the same.
     guide
-        Draws all other choices that it knows; their weights are corrected, too.
+        The guide that draws all other choices that it knows; the weights correct for it, too.
     """
 
     NAME = "importance"
@@ -100,7 +100,7 @@ class Forward(Method):
     Parameters
     ----------
     n
-        How many runs.
+        The number of runs.
     """
 
     NAME = "forward"

@@ -15,41 +15,41 @@ from niwaki.methods.method import Method
 class Hmc(Method):
     """Chains that follow the gradient for a fixed number of steps (dissertation 4.3).
 
-    They keep the structure of their start and the values of its discrete choices, with a warning; where those should
-    vary use `mh(kernel=kernels.cycle(kernels.prior(), kernels.hmc_step()))`.
+    The chains keep the structure of their start and the values of its discrete choices, with a warning. To vary these,
+    use `mh(kernel=kernels.cycle(kernels.prior(), kernels.hmc_step()))`.
 
     Parameters
     ----------
     draws
-        Of each chain, after warm-up.
+        The number of draws of each chain, after the warm-up.
     steps
-        Leapfrog steps of a trajectory; the dissertation takes 100 for colours and 1000 for stacks.
+        The number of leapfrog steps of a trajectory; the dissertation takes 100 for colours and 1000 for stacks.
     jitter
-        The number of steps varies by this share of itself, [0, 1]; 0, the dissertation's setting, keeps it.
+        The share by which the number of steps varies, [0, 1]; 0, the dissertation's setting, for a fixed number.
     chains
-        How many; two or more show whether they agree.
+        The number of chains; two or more show whether they agree.
     warmup
-        Transitions of each chain in which step size and metric are adapted; not among the draws.
+        The number of transitions of each chain in which step size and metric are adapted; they are not among the draws.
     thin
-        Transitions for each draw.
+        The number of transitions for each draw.
     target_accept
-        Mean acceptance that the step size is adapted to, (0, 1).
+        The mean acceptance to which the step size is adapted, (0, 1).
     metric
-        What the warm-up learns of the target's shape: "diagonal", a scale for each coordinate; "low-rank", and a few
-        directions; "dense", the whole covariance, which suits nearly normal targets; "unit", nothing (the
-        dissertation's setting). Or numbers, kept as they are: the variance of each coordinate, or a covariance by rows,
-        such as the `metric` of a result of `vi`.
+        The shape of the target that the warm-up learns: "diagonal", a scale for each coordinate; "low-rank", and a few
+        directions; "dense", the whole covariance, for nearly normal targets; "unit", nothing (the dissertation's
+        setting). Or fixed numbers: the variance of each coordinate, or a covariance by rows, such as the `metric` of a
+        result of `vi`.
     step_size
-        A step to keep instead of an adapted one.
+        A fixed step in place of an adapted one.
     climb
-        Most steps uphill from each chain's first run, before the warm-up. Useful where tight constraints leave almost
-        every run of the prior far from all likely runs. They stop when the gain is small beside the spread of draws. 0,
-        the default, for none; `explore` takes up to 2000.
+        The most steps uphill from each chain's first run, before the warm-up, for models with tight constraints in
+        which almost every run of the prior is far from all likely runs. The steps stop when the gain is small beside
+        the spread of draws. 0, the default, for none; `explore` takes up to 2000.
     tries
-        Most forward runs for the start of each chain.
+        The most forward runs for the start of each chain.
     designs
-        The draws are for designs and not for estimates, as those of `explore`: trajectories that diverged or were
-        refused are counted, and no warning is given.
+        Whether the draws are for designs and not for estimates, as in `explore`: trajectories that diverged or reached
+        another structure are counted without a warning.
     """
 
     NAME = "hmc"
@@ -76,12 +76,12 @@ class Hmc(Method):
 class Nuts(Method):
     """Chains that follow the gradient until they turn back (Hoffman & Gelman 2014; Betancourt 2017).
 
-    Structure and discrete choices are kept, as by `hmc`.
+    The chains keep structure and discrete choices, as those of `hmc`.
 
     Parameters
     ----------
     max_depth
-        Most doublings of a trajectory: 2^max_depth - 1 steps; up to 20.
+        The most doublings of a trajectory, up to 20: 2^max_depth - 1 steps.
     draws, chains, warmup, thin, target_accept, metric, step_size, climb, tries
         As for `hmc`.
     """
@@ -108,18 +108,18 @@ hmc, nuts = Hmc, Nuts
 
 
 def explore(draws: int = 8, chains: int = 128, warmup: int = 6, steps: int = 30, climb: int = 2000) -> Hmc:
-    """Many short chains, for designs rather than for estimates: each starts from its own run, climbs, then samples.
+    """Make a method of many short chains, for designs and not for estimates: each climbs from a run, then samples.
 
-    Tight constraints leave narrow ground in separate places, which one chain crosses slowly or never leaves. Chains
-    from many places see more of it with as many gradients. The weight of each place then depends on where the
-    chains start, and some chains have not reached the typical set. Where that matters, use `nuts` with a long warm-up
-    and look at `rhat`. For the same reason trajectories that diverged or were refused for structure are
-    counted, and no warning is given.
+    Tight constraints leave likely runs in separate narrow regions, which one chain crosses slowly or never leaves.
+    Chains from many places reach more regions with as many gradients. The weight of each region then depends on the
+    starts of the chains, and some chains have not reached the typical set. For estimates, use `nuts` with a long
+    warm-up and look at `rhat`. For the same reason trajectories that diverged or reached another structure are counted
+    without a warning.
 
     Parameters
     ----------
     draws, chains, warmup, steps, climb
-        As for `hmc`, which this is, with lengths that vary by half and no metric: few draws teach none.
+        As for `hmc`. The lengths vary by half, and there is no metric, because a metric needs more draws.
     """
     return Hmc(
         draws, steps, jitter=0.5, chains=chains, warmup=warmup, metric="unit", climb=climb, designs=True

@@ -1,4 +1,4 @@
-"""A guide as a value: a small network that draws choices in place of the prior, and its file."""
+"""Guides as values: small networks that draw choices in place of the prior, and their files."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from niwaki.once import cached_property
 
 
 class Guide:
-    """A trained guide (dissertation chapter 6).
+    """Trained guide (dissertation chapter 6).
 
-    It sees what is in scope at a choice, the parameters of the choice's prior, and the surroundings of the current
-    place in target and scene. It gives a distribution to draw from. Weights make up for the difference, so a search is
-    right with any guide, and needs fewer particles with a good one.
+    A guide sees the variables in scope at a choice, the parameters of the choice's prior, and the surroundings of the
+    current place in target and scene. The choice is drawn from the guide's distribution. Weights correct for the
+    difference, so a search is right with any guide, and needs fewer particles with a good one.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ class Guide:
 
     See Also
     --------
-    niwaki.train_guide : makes one.
+    niwaki.train_guide : trains a guide.
     """
 
     def __init__(self, data: bytes) -> None:
@@ -42,14 +42,14 @@ class Guide:
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Guide:
-        """The guide of a file.
+        """Read a guide from a file.
 
         Raises
         ------
         InputError
             The file is no guide, damaged, or of another format.
         FileError
-            It is missing, no regular file, or larger than is read.
+            The file is missing, no regular file, or too large.
         """
         data = bytes_of(path, "guide")
         try:
@@ -73,29 +73,29 @@ class Guide:
 
     @cached_property
     def form(self) -> Mapping[str, Any]:
-        """What it looks at and what it draws, as plain data."""
+        """Its inputs and the choices that it draws, as plain data."""
         form: dict[str, Any] = json.loads(self._engine.form())
         return form
 
     @property
     def report(self) -> Mapping[str, Any]:
-        """What it was trained on, and its scores on what was held out."""
+        """Its training data, and its scores on held-out data."""
         report: Mapping[str, Any] = self.form["report"]
         return report
 
     @property
     def model(self) -> str:
-        """The name of the model that it was trained for."""
+        """The name of its model."""
         name: str = self.form["model"]
         return name
 
     @property
     def looks_ahead(self) -> bool:
-        """Whether it has learned to look ahead (`niwaki.guides.train_look_ahead`)."""
+        """Whether the guide has learned to look ahead (`niwaki.guides.train_look_ahead`)."""
         return self.form.get("ahead") is not None
 
-    def reported(self, report: Mapping[str, Any]) -> Guide:
-        """The same guide with another report."""
+    def with_report(self, report: Mapping[str, Any]) -> Guide:
+        """Copy the guide with another report."""
         return Guide(self._engine.with_report(json.dumps(report)).data())
 
     def __eq__(self, other: object) -> bool:
@@ -111,7 +111,7 @@ class Guide:
         return f"<guide of {self.model}: {len(self.form['sites'])} choices, {self._engine.weights()} weights>"
 
     def show(self) -> str:
-        """What each choice sees, as text."""
+        """Describe the inputs of each choice, as text."""
         form, inputs = self.form, self._engine.inputs()
         weights, share = self._engine.weights(), form["share"]
         lines = [f"guide of {form['model']}: {weights} weights, a share of {share} is the prior's"]
@@ -131,11 +131,13 @@ class Guide:
             )
         for site in form["sites"]:
             lines.append(
-                f"{site['function']}/{site['label']}: {_drawn(site)}, {site['visits']} in the traces"
+                f"{site['function']}/{site['label']}: {_family(site)}, {site['visits']} in the traces"
             )
             variables = [form["variables"][number] for number in site["variables"]]
-            seen = [name for one in variables for name in _names(inputs, one["first"], one["kind"])]
-            lines.append(f"    sees {', '.join(seen) or 'no variable'}")
+            names = [
+                name for variable in variables for name in _names(inputs, variable["first"], variable["kind"])
+            ]
+            lines.append(f"    sees {', '.join(names) or 'no variable'}")
         if self.looks_ahead:
             low, high = form["ahead"]["range"]
             lines.append(f"looks ahead: what a paused run will still gain, {low:.3g} to {high:.3g} nats")
@@ -143,13 +145,13 @@ class Guide:
         return "\n".join(lines)
 
 
-def _drawn(site: Mapping[str, Any]) -> str:
-    """How a choice is drawn."""
+def _family(site: Mapping[str, Any]) -> str:
+    """Describe the distribution of a choice."""
     ((kind, settings),) = site["head"].items()
     if kind == "Finite":
         return f"{site['family']}, one of {settings['values']} values"
-    what = "a mixture" if kind == "Normal" else "a mixture over whole numbers"
-    return f"{site['family']}, {what} of {settings['components']}"
+    mixture = "a mixture" if kind == "Normal" else "a mixture over whole numbers"
+    return f"{site['family']}, {mixture} of {settings['components']}"
 
 
 def _names(inputs: list[str], first: int, kind: Any) -> list[str]:
@@ -158,16 +160,16 @@ def _names(inputs: list[str], first: int, kind: Any) -> list[str]:
 
 
 def _size(kind: Any) -> int:
-    """How many inputs a variable of a kind has."""
+    """The number of inputs of a variable of a kind."""
     if isinstance(kind, str):
         return {"number": 1, "angle": 2}.get(kind, 0)
-    ((name, own),) = kind.items()
+    ((name, form),) = kind.items()
     match name:
         case "point":
-            return 2 * int(own["numbers"])
+            return 2 * int(form["numbers"])
         case "parts":
-            return sum(_size(part) for _, part in own)
+            return sum(_size(part) for _, part in form)
         case "list":
-            return 1 + _size(own)
+            return 1 + _size(form)
         case _:
-            return len(own)
+            return len(form)

@@ -1,10 +1,10 @@
-"""The usual search: populations, parts that are grown again, and single choices that move."""
+"""Default search of `grow`: populations, parts that are grown again, and single choices that move."""
 
 from __future__ import annotations
 
 from dataclasses import InitVar, dataclass
 
-from niwaki.methods.checks import guided
+from niwaki.methods.checks import with_guide
 from niwaki.methods.guide import Guide
 from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method
@@ -13,37 +13,37 @@ from niwaki.methods.refusals import as_real
 
 @dataclass(frozen=True)
 class Improve(Method):
-    """Search for one good run, with the effort where it gains: a search, which gives no evidence and no weights.
+    """Search for one good run, which spends its work on the steps that gain most; it has no evidence and no weights.
 
-    It begins with a population. Rounds follow, each with a fifth of that population's work: parts of the best run are
-    grown again (as `kernels.regrow` does, but from fresh particles alone, whose best takes the part's place where it is
-    better) by few or by many particles, single choices move, or another population starts. What gained lately gets more
-    of the rounds. It ends after `rounds`, after `seconds`, or when nothing has been gained for long.
+    The search begins with a population. Rounds follow, each with a fifth of the population's work. A round grows parts
+    of the best run again by few or by many particles, moves single choices, or starts another population. A part is
+    grown by fresh particles, and the best of them replaces the part if it is better. Kinds of steps with recent gains
+    get more of the rounds. The search ends after `rounds`, after `seconds`, or after many rounds without a gain.
 
-    Where all particles of the first population die, others of other forms are tried, less greedy or larger ones;
-    `Result.info` names them.
+    If all particles of the first population die, the search tries populations of other forms, less greedy or larger;
+    `Result.info` lists them.
 
     Parameters
     ----------
     particles
-        Of a population.
+        The number of particles of a population.
     regrow
-        Particles that grow a part again, or five times as many; at least 2.
+        The number of particles that grow a part again, at least 2; some rounds take five times as many.
     power
-        The power of the score: 1 follows the posterior, more sharpens the search.
+        The power of the score: 1 follows the posterior, a higher power sharpens the search.
     rounds
-        Most rounds; 15, or without end where `seconds` is given, when left out. Work is counted and not timed, so the
-        same seed and number of rounds give the same bits.
+        The most rounds; by default 15, or no limit with `seconds`. Work is counted and not timed, so equal seeds and
+        numbers of rounds give equal bits.
     seconds
-        No round begins after so many seconds; the number of rounds in `Result.info` repeats the search. None for no
+        The time after which no round begins; the number of rounds in `Result.info` repeats the search. None for no
         limit.
     diverse
-        Give so many results that differ, best score first, from as many searches side by side with six tenths of the
-        particles: none shares more than half of its choices with another. Where fewer are found, fewer are given, with
-        a warning. Not with `seconds`.
+        The number of results that differ, best score first, from as many searches side by side with six tenths of the
+        particles. No two share more than half of their choices. Fewer results are possible, with a warning. Not with
+        `seconds`.
     proposal, guide
-        What draws the choices of populations, and of parts that are grown again, in place of the prior, as for
-        `importance`.
+        The proposal and the guide that draw choices in place of the prior, in populations and in parts that are grown
+        again, as for `importance`.
     """
 
     NAME = "improve"
@@ -60,7 +60,7 @@ class Improve(Method):
         """Check the settings."""
         for name in ("power", "seconds"):
             self._set(name, as_real(getattr(self, name)))
-        self._set("proposal", guided(self.proposal, guide))
+        self._set("proposal", with_guide(self.proposal, guide))
         self._check()
 
 

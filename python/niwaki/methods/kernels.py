@@ -28,7 +28,7 @@ from niwaki.errors import InputError
 from niwaki.errors.schema import fitted, inside
 from niwaki.errors.settings import bad, real
 from niwaki.methods.guide import Guide
-from niwaki.methods.refusals import as_real, checked
+from niwaki.methods.refusals import as_real, check_settings
 
 __all__ = [
     "Kernel",
@@ -53,12 +53,12 @@ __all__ = [
     "weighted",
 ]
 
-#: Depths at which a function of the depth is evaluated; the last value holds for all deeper ones.
+#: The number of depths at which a function of the depth is evaluated; the last value holds for all deeper ones.
 _DEEPEST = 256
 
 
 class _KernelData(Struct):
-    """A kernel as data; its parts are checked when they are read."""
+    """Kernel as data; its parts are checked when they are read."""
 
     name: str
     settings: dict[str, Any] = {}
@@ -68,7 +68,7 @@ class _KernelData(Struct):
 
 @dataclass(frozen=True)
 class Kernel:
-    """A Markov kernel: a name, its settings by name, and the kernels in it."""
+    """Markov kernel: a name, its settings by name, and the kernels in it."""
 
     name: str
     settings: Mapping[str, Any] = field(default_factory=dict)
@@ -76,28 +76,30 @@ class Kernel:
     function: Any = field(default=None, compare=False)
 
     def __post_init__(self) -> None:
-        """Check the settings; the parts have checked theirs."""
-        checked(_engine.check_kernel, {"name": self.name, "settings": self.settings}, self.settings, {})
+        """Check the settings; each part has checked its own."""
+        check_settings(
+            _engine.check_kernel, {"name": self.name, "settings": self.settings}, self.settings, {}
+        )
 
     def data(self, function: Callable[[Any], Any]) -> dict[str, Any]:
         """The kernel as plain data; `function` writes a user's proposal or a guide."""
-        found: dict[str, Any] = {"name": self.name}
+        data: dict[str, Any] = {"name": self.name}
         if self.settings:
-            found["settings"] = dict(self.settings)
+            data["settings"] = dict(self.settings)
         if self.parts:
-            found["parts"] = [part.data(function) for part in self.parts]
+            data["parts"] = [part.data(function) for part in self.parts]
         if self.function is not None:
-            found["function"] = function(self.function)
-        return found
+            data["function"] = function(self.function)
+        return data
 
     @classmethod
     def of_data(cls, data: Mapping[str, Any], function: Callable[[Any], Any]) -> Kernel:
-        """The kernel of its data; `function` reads a user's proposal or a guide.
+        """Read a kernel from its data; `function` reads a user's proposal or a guide.
 
         Raises
         ------
         Unfit
-            It is not a kernel's data.
+            The data are not those of a kernel.
         """
         fitted(data, _KernelData)
         parts = []
@@ -105,25 +107,25 @@ class Kernel:
             with inside(f".parts[{number}]"):
                 parts.append(cls.of_data(part, function))
         with inside(".function"):
-            own = function(data["function"]) if "function" in data else None
-        return cls(data["name"], dict(data.get("settings", {})), tuple(parts), own)
+            attached = function(data["function"]) if "function" in data else None
+        return cls(data["name"], dict(data.get("settings", {})), tuple(parts), attached)
 
     def leaves(self) -> list[Kernel]:
-        """The kernels that propose, in order, each with the restrictions that hold for it."""
+        """The kernels that propose, in order, each with its restrictions."""
         if not self.parts:
             return [self]
         inner = [leaf for part in self.parts for leaf in part.leaves()]
         return [Kernel("on", self.settings, (leaf,)) for leaf in inner] if self.name == "on" else inner
 
     def first(self, *names: str) -> Kernel | None:
-        """The first kernel with one of these names: this one or one of its parts."""
+        """Find the first kernel with one of these names: this kernel or one of its parts."""
         if self.name in names:
             return self
-        return next((found for part in self.parts if (found := part.first(*names)) is not None), None)
+        return next((kernel for part in self.parts if (kernel := part.first(*names)) is not None), None)
 
     @property
     def follows(self) -> bool:
-        """Whether a leaf of it follows the gradient."""
+        """Whether one of its leaves follows the gradient."""
         return self.first("hmc_step", "nuts_step") is not None
 
     def __repr__(self) -> str:
@@ -156,12 +158,12 @@ class Kernel:
 
 
 def prior() -> Kernel:
-    """One choice, drawn from its own distribution (dissertation 3.2)."""
+    """Draw one choice from its own distribution (dissertation 3.2)."""
     return Kernel("prior")
 
 
 def drift(step: float = 0.5, target: float = 0.44) -> Kernel:
-    """One continuous choice moves a little; discrete ones are drawn from their own distribution.
+    """Move one continuous choice a little; a discrete choice is drawn from its own distribution.
 
     Positive numbers move by a factor, those of an interval by a factor of x / (1 - x), entries of a simplex by factors;
     angles go around.
@@ -169,36 +171,35 @@ def drift(step: float = 0.5, target: float = 0.44) -> Kernel:
     Parameters
     ----------
     step
-        First step, in standard deviations of the choice's distribution (where it is bell-shaped) or as the logarithm
-        of the factor.
+        The first step, in standard deviations of a bell-shaped distribution, or as the logarithm of the factor.
     target
-        The acceptance to which the step of each site is adapted during the warm-up; it is frozen afterwards.
+        The acceptance to which the step of each site is adapted in the warm-up; afterwards the step is fixed.
     """
     return Kernel("drift", {"step": as_real(step), "target": as_real(target)})
 
 
 def neighbour(reach: int = 1) -> Kernel:
-    """One discrete choice moves to a value near by; continuous ones are drawn from their own distribution.
+    """Move one discrete choice to a neighbouring value; a continuous choice is drawn from its own distribution.
 
-    A truth value turns, a whole number goes up or down by at most `reach`, a category becomes another.
+    A truth value flips, a whole number goes up or down by at most `reach`, a category becomes another.
     """
     return Kernel("neighbour", {"reach": reach})
 
 
 def block(step: float = 0.2, share: float = 1.0, target: float = 0.234) -> Kernel:
-    """Many choices move a little at once.
+    """Move many choices a little at once.
 
-    A discrete choice that takes part moves to a value near by or stays, each with probability 1/2. Lists of counts or
-    of truth values stay: a search with this kernel alone then warns.
+    A discrete choice that takes part moves to a neighbouring value or stays, each with probability 1/2. Lists of counts
+    or of truth values stay: a search with this kernel alone then warns.
 
     Parameters
     ----------
     step
-        First step, in spreads of each site's distribution in the first state.
+        The first step, in spreads of each site's distribution in the first state.
     share
-        Probability with which each choice takes part.
+        The probability with which each choice takes part.
     target
-        The acceptance to which the step is adapted during the warm-up.
+        The acceptance to which the step is adapted in the warm-up.
     """
     settings = {
         "step": as_real(step),
@@ -209,7 +210,7 @@ def block(step: float = 0.2, share: float = 1.0, target: float = 0.234) -> Kerne
 
 
 def regenerate(levels: int = 0) -> Kernel:
-    """A call and all below it are drawn again: the call that is `levels` calls or iterations above a choice."""
+    """Draw a call and all below it again: the call that is `levels` calls or iterations above a choice."""
     return Kernel("regenerate", {"levels": levels})
 
 
@@ -221,34 +222,33 @@ def regrow(
     parts: str | Sequence[str] | None = None,
     guide: Guide | None = None,
 ) -> Kernel:
-    """A part of the run is grown again in place by particles, and everything else is held.
+    """Grow a part of the run again by particles, and hold everything else.
 
-    The part is a call with all below it, an iteration of a loop, or the iterations from one on. Particles grow it in
-    the scene that has everything else. One of them holds the present values, and one is drawn by weight (particle Gibbs
-    of a block). A particle search that lost a part early gets it back this way. Under `on` only the choices that match
-    change.
+    The part is a call with all below it, an iteration of a loop, or the iterations from one on. Particles grow the part
+    in the scene of everything else. One particle holds the present values, and one is drawn by weight (particle Gibbs
+    of a block). So a part that a particle search lost early comes back. Under `on` only the choices that match change.
 
     Parameters
     ----------
     particles
-        How many, the one with the present values among them; at least 2.
+        The number of particles, with the one that has the present values; at least 2.
     turn
-        How often a discrete choice of the part's own call is given another value and the part grown with it: a branch
-        where there was none, a segment more, [0, 1].
+        The probability, [0, 1], with which a discrete choice of the part's own call gets another value before the part
+        is grown: for a new branch, or one more segment.
     pick
-        Which part: `"size"` draws the logarithm of its size evenly, so small and large parts have their turn, and
-        `"choice"` takes the call of a choice that is drawn evenly. With `"choice"` alone a chain keeps which calls make
-        choices where that depends on other calls; a search then warns.
+        The rule for the part: `"size"` draws the logarithm of its size evenly, so that small and large parts are
+        grown, and `"choice"` takes the call of an evenly drawn choice. With `"choice"` alone a chain does not change
+        which calls make choices if that depends on other calls; a search then warns.
     parts
-        Patterns over the addresses of calls and iterations, such as `"wing[1]"`: one of those that match is grown
-        again, drawn evenly, instead of `pick`.
+        Patterns over the addresses of calls and iterations, such as `"wing[1]"`, in place of `pick`: one of the
+        matches is drawn evenly.
     guide
-        Draws the new values in place of their priors; weights make up for it.
+        The guide that draws the new values in place of their priors; weights correct for it.
     """
     if pick not in ("size", "choice"):
         raise bad("pick", pick, 'one of "size", "choice"', '"size"')
     named = [parts] if isinstance(parts, str) else parts
-    if named is not None and not (named and all(isinstance(one, str) and one for one in named)):
+    if named is not None and not (named and all(isinstance(pattern, str) and pattern for pattern in named)):
         raise bad("parts", parts, "a pattern over addresses of calls, or several", '"wing[1]"')
     return Kernel(
         "regrow",
@@ -262,21 +262,21 @@ def regrow(
 
 
 def hmc_step(steps: int = 10, step: float = 0.1, jitter: float = 0.0, target: float = 0.8) -> Kernel:
-    """All continuous choices move together along their gradient, for a fixed number of steps (dissertation 4.3, 7.1).
+    """Move all continuous choices together along their gradient, for a fixed number of steps (dissertation 4.3, 7.1).
 
-    Discrete choices keep their values, and with them the structure of the run: other kernels of the same chain move
-    those. A trajectory that reaches another structure is rejected, so put a kernel beside that moves continuous choices
-    too, such as `prior()`, where they decide the structure. Under `on` only the choices that match move.
+    Discrete choices keep their values, and with them the structure of the run; other kernels of the chain move them. A
+    trajectory that reaches another structure is rejected. If continuous choices decide the structure, add a kernel that
+    moves them, too, such as `prior()`. Under `on` only the choices that match move.
 
     Parameters
     ----------
     steps
-        Leapfrog steps of a trajectory; each costs one gradient.
+        The number of leapfrog steps of a trajectory; each takes one gradient.
     step
-        First step for one coordinate, in standard deviations of bell-shaped choices and in logarithms of bounded ones;
-        `d` coordinates take `d ** -0.25` of it. Step and scales are adapted in the warm-up, and frozen afterwards.
+        The first step for one coordinate, in standard deviations of bell-shaped choices and in logarithms of bounded
+        ones; `d` coordinates take `d ** -0.25` of it. Step and scales are adapted in the warm-up, and fixed afterwards.
     jitter
-        The number of steps varies by this share of itself, [0, 1].
+        The share by which the number of steps varies, [0, 1].
     target
         The acceptance to which the step is adapted.
     """
@@ -290,12 +290,12 @@ def hmc_step(steps: int = 10, step: float = 0.1, jitter: float = 0.0, target: fl
 
 
 def nuts_step(max_depth: int = 8, step: float = 0.1, target: float = 0.8) -> Kernel:
-    """All continuous choices move together along their gradient until they turn back; else as for `hmc_step`.
+    """Move all continuous choices together along their gradient until they turn back; else as for `hmc_step`.
 
     Parameters
     ----------
     max_depth
-        Most doublings of a trajectory: 2^max_depth - 1 steps; up to 20.
+        The most doublings of a trajectory, up to 20: 2^max_depth - 1 steps.
     step, target
         As for `hmc_step`.
     """
@@ -308,49 +308,48 @@ def nuts_step(max_depth: int = 8, step: float = 0.1, target: float = 0.8) -> Ker
 
 
 def proposal(function: Callable[..., Any]) -> Kernel:
-    """One choice, from a distribution of your own, for chains, particles and importance sampling alike.
+    """Draw one choice from a distribution of your own, in chains, particles and importance sampling.
 
     Parameters
     ----------
     function
-        A function of the modelling language that gives a distribution over new values, such as
-        `lambda old: Gaussian(old, 0.1)` or `lambda x: Gaussian(0.9 * x, 0.3)`. It makes no choice itself. Its
-        parameters are names: `old` is the value before, which only a chain has; any other one is a variable of the
-        model that is in scope at the choice and holds a number or a truth value. Use it under `on`, for sites whose
-        values it proposes.
+        A function of the modelling language that returns a distribution of new values, such as
+        `lambda old: Gaussian(old, 0.1)` or `lambda x: Gaussian(0.9 * x, 0.3)`, and makes no choice. Its parameters are
+        names: `old` is the value before, which only a chain has; any other parameter is a variable of the model in
+        scope at the choice, with a number or a truth value. Use the kernel under `on`, for the sites of the function.
     """
     return Kernel("proposal", function=function)
 
 
 def guided(guide: Guide) -> Kernel:
-    """Choices drawn by a guide (dissertation chapter 6), for chains, particles and importance sampling alike.
+    """Draw choices from a guide (dissertation chapter 6), in chains, particles and importance sampling.
 
-    In a chain it changes one choice. It sees the scene without the parts at and below the call of that choice, and with
-    what the call itself emitted before it; iterations of a loop after that of the choice are below it. A particle that
-    still runs is left unchanged by it, as a kernel of `rejuvenate`.
+    In a chain the kernel changes one choice. The guide sees the scene without the parts at and below the call of that
+    choice, but with the shapes that the call emitted before the choice. Later iterations of a loop count as below. As a
+    kernel of `rejuvenate` it leaves running particles unchanged.
 
     Parameters
     ----------
     guide
-        From `niwaki.train_guide`, or a file (`Guide.load`). Choices that it does not know are drawn from their priors.
+        A guide of `niwaki.train_guide`, or of a file (`Guide.load`). Unknown choices are drawn from their priors.
     """
     return Kernel("guided", function=_guide(guide))
 
 
 def _guide(guide: Guide) -> Guide:
-    """The guide, where it is one."""
+    """Check a guide."""
     if not isinstance(guide, Guide):
         raise bad("guide", guide, "a guide", '`niwaki.train_guide(...)` or `Guide.load("vines.guide")`')
     return guide
 
 
 def cycle(*kernels: Kernel) -> Kernel:
-    """One application of each, in order."""
+    """Apply each kernel once, in order."""
     return Kernel("cycle", {}, _parts("cycle", kernels))
 
 
 def mixture(*kernels: Kernel, weights: Sequence[float] | None = None) -> Kernel:
-    """One application of one of them, drawn by weight; evenly when no weights are given."""
+    """Apply one of the kernels, drawn by weight; evenly without weights."""
     parts = _parts("mixture", kernels)
     values = [1.0] * len(parts) if weights is None else [as_real(weight) for weight in weights]
     if len(values) != len(parts):
@@ -359,14 +358,14 @@ def mixture(*kernels: Kernel, weights: Sequence[float] | None = None) -> Kernel:
 
 
 def repeat(times: int, kernel: Kernel) -> Kernel:
-    """So many applications of a kernel."""
+    """Apply a kernel a number of times."""
     return Kernel("repeat", {"times": times}, _parts("repeat", (kernel,)))
 
 
 def on(sites: str | Sequence[str], kernel: Kernel) -> Kernel:
-    """A kernel restricted to the choices whose address matches a pattern, or one of several."""
+    """Restrict a kernel to the choices whose address matches a pattern, or one of several."""
     patterns = [sites] if isinstance(sites, str) else list(sites)
-    if not patterns or not all(isinstance(one, str) and one for one in patterns):
+    if not patterns or not all(isinstance(pattern, str) and pattern for pattern in patterns):
         raise bad("sites", sites, "a pattern over addresses, or several", '"tree/width"')
     return Kernel("on", _selection(sites=[patterns]), _parts("on", (kernel,)))
 
@@ -378,30 +377,30 @@ def weighted(
     sites: Mapping[str, float] | None = None,
     calls: str = "",
 ) -> Kernel:
-    """A kernel that picks choices by weight instead of evenly; the acceptance takes that into account.
+    """Pick choices by weight instead of evenly; the acceptance takes the weights into account.
 
     Parameters
     ----------
     depth
-        The selection weight of a choice with that number of calls above it.
+        A function from the number of calls above a choice to its selection weight.
     sites
-        Selection weights by pattern over addresses: the first that matches, else 1. Zero leaves a choice out.
+        Selection weights by pattern over addresses: the weight of the first match, else 1. Zero leaves a choice out.
     calls
         The name, in addresses, of the calls that count as depth; all calls when left out.
     """
     by_depth = [] if depth is None else [_weight("depth", depth(n)) for n in range(_DEEPEST)]
-    by_site = [[pattern, _weight("sites", one)] for pattern, one in (sites or {}).items()]
+    by_site = [[pattern, _weight("sites", weight)] for pattern, weight in (sites or {}).items()]
     return Kernel(
         "on", _selection(depth=by_depth, weights=by_site, calls=calls), _parts("weighted", (kernel,))
     )
 
 
 def anneal(kernel: Kernel, steps: int, start: float = 0.1, end: float = 10.0) -> Kernel:
-    """A kernel under which the score counts more and more: it is raised to a power that rises.
+    """Raise the score to a power that rises, so that the score counts more and more.
 
-    The power goes from `start` to `end` in so many proposals, geometrically, and then stays. A power of 1 is the
-    posterior, a higher one is sharper; the prior keeps its power of 1. The samples are not those of the posterior;
-    take the best.
+    The power goes from `start` to `end` in `steps` proposals, geometrically, and then stays. The power 1 is the
+    posterior, a higher power is sharper; the prior keeps the power 1. The samples are not those of the posterior; take
+    the best one.
     """
     settings = {
         "start": as_real(start),
@@ -412,37 +411,36 @@ def anneal(kernel: Kernel, steps: int, start: float = 0.1, end: float = 10.0) ->
 
 
 def tempering(kernel: Kernel, powers: Sequence[float] = (1.0, 0.5, 0.25, 0.125), every: int = 100) -> Kernel:
-    """Parallel tempering: a chain at each power of the score; neighbours exchange states now and then.
+    """Run a chain at each of several powers of the score, which exchange states (parallel tempering).
 
-    It can only be outermost. The first power must be 1: its chain gives the samples.
+    The kernel can only be outermost. The first power must be 1: its chain gives the samples.
 
     Parameters
     ----------
     powers
-        Falling from 1. At a small power the score counts little, and the chain moves freely.
+        The powers, falling from 1. At a small power the score counts little, and the chain moves freely.
     every
-        Proposals between two exchanges.
+        The number of proposals between two exchanges of neighbours.
     """
     settings = {"powers": [as_real(power) for power in powers], "every": every}
     return Kernel("tempering", settings, _parts("tempering", (kernel,)))
 
 
 def original(power: float = 16.0, nesting: str | None = None) -> Kernel:
-    """The original's Metropolis-Hastings, with its settings (the baseline of dissertation 5.6).
+    """Move one choice as the original's Metropolis-Hastings does (the baseline of dissertation 5.6).
 
-    One choice by its family: a coin is always turned, a Gaussian number drifts by its own standard deviation, anything
-    else is drawn from its distribution. It is run on the same models as everything else; a number whose interval
-    moves away from under it is rejected here, where the original kept its place in the interval.
+    The family of the choice decides the move: a coin flips, a Gaussian number drifts by its own standard deviation, any
+    other choice is drawn from its distribution. A number that a changed interval leaves outside is rejected; the
+    original kept its relative place in the interval.
 
     Parameters
     ----------
     power
-        Of the score: 16 turns a sigma of 0.02 into 0.005, as the original did. Reported scores are
-        those of power 1.
+        The power of the score: 16 turns a sigma of 0.02 into 0.005, as in the original. Reported scores have power 1.
     nesting
-        The name of a function: choices within n nested calls of it get the selection weight exp(-n), as on the
-        original's tree, where n counts branches and not segments (for our gnarly tree `"side_branch"`). All alike
-        when left out.
+        The name of a function: choices within n nested calls of it have the selection weight exp(-n), as in the
+        original's tree, where n counts branches (`"side_branch"` in the gnarly tree of the gallery). Equal weights when
+        left out.
     """
     kernel = Kernel("by_family")
     if nesting is not None:
@@ -451,9 +449,9 @@ def original(power: float = 16.0, nesting: str | None = None) -> Kernel:
 
 
 def parse(text: str) -> Kernel:
-    """A kernel as it is written: `cycle(on("z", prior()), repeat(3, drift(0.2)))`.
+    """Read a kernel from a text such as `cycle(on("z", prior()), repeat(3, drift(0.2)))`.
 
-    Calls of the functions of this module with numbers, texts, lists and kernels; nothing else is carried out.
+    The text has calls of the functions of this module with numbers, texts, lists and kernels; no other code runs.
     """
     try:
         result = _kernel_of(ast.parse(text.strip(), mode="eval").body)
@@ -471,17 +469,17 @@ def parse(text: str) -> Kernel:
 
 
 def _kernel_of(part: ast.expr) -> Any:
-    if isinstance(part, ast.Name) and part.id in _WRITTEN:
-        return _WRITTEN[part.id]()
-    if isinstance(part, ast.Call) and isinstance(part.func, ast.Name) and part.func.id in _WRITTEN:
-        given = {word.arg: _kernel_of(word.value) for word in part.keywords if word.arg is not None}
-        return _WRITTEN[part.func.id](*(_kernel_of(one) for one in part.args), **given)
+    if isinstance(part, ast.Name) and part.id in _FUNCTIONS:
+        return _FUNCTIONS[part.id]()
+    if isinstance(part, ast.Call) and isinstance(part.func, ast.Name) and part.func.id in _FUNCTIONS:
+        settings = {word.arg: _kernel_of(word.value) for word in part.keywords if word.arg is not None}
+        return _FUNCTIONS[part.func.id](*(_kernel_of(argument) for argument in part.args), **settings)
     if isinstance(part, (ast.List, ast.Tuple)):
-        return [_kernel_of(one) for one in part.elts]
+        return [_kernel_of(entry) for entry in part.elts]
     if isinstance(part, (ast.Name, ast.Call)):
         name = ast.unparse(part.func if isinstance(part, ast.Call) else part)
-        near = get_close_matches(name, _WRITTEN, n=1)
-        hint = f"; did you mean `{near[0]}`?" if near else f"; there are {', '.join(_WRITTEN)}"
+        near = get_close_matches(name, _FUNCTIONS, n=1)
+        hint = f"; did you mean `{near[0]}`?" if near else f"; there are {', '.join(_FUNCTIONS)}"
         raise ValueError(f"there is no kernel `{name}`{hint}")
     try:
         return ast.literal_eval(part)
@@ -489,8 +487,8 @@ def _kernel_of(part: ast.expr) -> Any:
         raise ValueError(f"`{ast.unparse(part)}` is no call, number, text or list") from None
 
 
-#: What can be written as text.
-_WRITTEN: dict[str, Callable[..., Kernel]] = {
+#: Functions that a text can call, by name.
+_FUNCTIONS: dict[str, Callable[..., Kernel]] = {
     function.__name__: function
     for function in (
         prior,
@@ -513,21 +511,21 @@ _WRITTEN: dict[str, Callable[..., Kernel]] = {
 }
 
 
-def _selection(**given: Any) -> dict[str, Any]:
-    """Which choices a kernel may change: lists of patterns that must match; weights by depth and by pattern."""
-    return {"sites": [], "depth": [], "weights": [], "calls": "", **given}
+def _selection(**settings: Any) -> dict[str, Any]:
+    """The settings of a selection of choices: lists of patterns that must match; weights by depth and by pattern."""
+    return {"sites": [], "depth": [], "weights": [], "calls": "", **settings}
 
 
 def _parts(name: str, kernels: Sequence[Any]) -> tuple[Kernel, ...]:
     if not kernels:
         raise bad(name, "nothing", "at least one kernel", "`kernels.prior()`")
-    for one in kernels:
-        if not isinstance(one, Kernel):
-            raise bad(name, one, "kernels", "one of `niwaki.kernels`, such as `kernels.prior()`")
-        if one.name == "tempering":
+    for kernel in kernels:
+        if not isinstance(kernel, Kernel):
+            raise bad(name, kernel, "kernels", "one of `niwaki.kernels`, such as `kernels.prior()`")
+        if kernel.name == "tempering":
             raise bad(
                 name,
-                one,
+                kernel,
                 "kernels other than `tempering`, which can only be outermost",
                 "`tempering` around it",
             )

@@ -1,6 +1,6 @@
-"""A method as a value and as data: its class is the one description of its settings.
+"""Methods as values and as data: the class of a method is the one description of its settings.
 
-The fields of the class are the settings with their defaults; its docstring describes them. The shell's flags, the
+The fields of the class are the settings with their defaults, and its docstring describes them. The shell's flags, the
 engine's reader and the record of a search follow from the fields.
 """
 
@@ -19,12 +19,12 @@ from niwaki.errors import InputError
 from niwaki.errors.schema import fitted, inside
 from niwaki.methods.kernels import Kernel
 from niwaki.methods.order import FutureOrder
-from niwaki.methods.refusals import checked
+from niwaki.methods.refusals import check_settings
 
 
 @dataclass(frozen=True)
 class Method:
-    """How a model is searched.
+    """Method by which a model is searched.
 
     Attributes
     ----------
@@ -37,7 +37,7 @@ class Method:
     KNOWN: ClassVar[dict[str, type[Method]]] = {}
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
-        """Note a method's name."""
+        """Register a method by its name."""
         super().__init_subclass__(**kwargs)
         if cls.NAME:
             Method.KNOWN[cls.NAME] = cls
@@ -48,20 +48,20 @@ class Method:
         Parameters
         ----------
         function
-            Writes a user's proposal, the only setting that is not a plain value.
+            A function that writes a user's proposal or a guide, the only settings that are not plain values.
         """
-        found: dict[str, Any] = {"method": self.NAME}
+        data: dict[str, Any] = {"method": self.NAME}
         for field in fields(self):
             value = getattr(self, field.name)
             if isinstance(value, Kernel):
                 value = value.data(function)
             elif isinstance(value, FutureOrder):
                 value = value.data()
-            found[field.name] = list(value) if isinstance(value, tuple) else value
-        return found
+            data[field.name] = list(value) if isinstance(value, tuple) else value
+        return data
 
     def text(self) -> tuple[str, list[Any]]:
-        """What the engine reads, and the users' proposals that it names by number."""
+        """The method as text for the engine, and the users' proposals and guides that the text names by number."""
         functions: list[Any] = []
 
         def number(function: Any) -> int:
@@ -72,19 +72,19 @@ class Method:
 
     @classmethod
     def of_data(cls, data: dict[str, Any], function: Callable[[Any], Any]) -> Self:
-        """The method of its data; `function` reads a user's proposal.
+        """Read a method from its data; `function` reads a user's proposal or a guide.
 
         Raises
         ------
         InputError
-            The error about an unknown method or setting.
+            The method or a setting is unknown.
         Unfit
-            A setting is of another type.
+            A setting has another type.
         """
-        given = dict(data)
-        name = given.pop("method", "")
-        own = Method.KNOWN.get(name) if isinstance(name, str) else None
-        if own is None or not issubclass(own, cls):
+        settings = dict(data)
+        name = settings.pop("method", "")
+        kind = Method.KNOWN.get(name) if isinstance(name, str) else None
+        if kind is None or not issubclass(kind, cls):
             raise InputError(
                 "bad-setting",
                 name="method",
@@ -92,27 +92,29 @@ class Method:
                 expected=f"one of {', '.join(Method.KNOWN)}",
                 suggestion='"smc"',
             )
-        fitted(given, _schema(own.NAME))
-        for name, value in given.items():
+        fitted(settings, _schema(kind.NAME))
+        for name, value in settings.items():
             if isinstance(value, dict):
                 with inside(f".{name}"):
                     is_order = name == "order"
-                    given[name] = FutureOrder.of_data(value) if is_order else Kernel.of_data(value, function)
+                    settings[name] = (
+                        FutureOrder.of_data(value) if is_order else Kernel.of_data(value, function)
+                    )
             elif isinstance(value, list):
-                given[name] = tuple(value)
+                settings[name] = tuple(value)
         try:
-            return own(**given)
+            return kind(**settings)
         except TypeError as error:
             raise InputError(
                 "bad-setting",
-                name=own.NAME,
+                name=kind.NAME,
                 found=str(error).partition(") ")[2] or str(error),
-                expected=f"the settings {', '.join(field.name for field in fields(own))}",
-                suggestion="those alone",
+                expected=f"the settings {', '.join(field.name for field in fields(kind))}",
+                suggestion="these settings only",
             ) from None
 
     def _set(self, name: str, value: Any) -> None:
-        """Convert a setting: a whole number to a real one, a list to a tuple."""
+        """Set a field to a converted value: a real for a whole number, a tuple for a list."""
         object.__setattr__(self, name, value)
 
     def _check(self) -> None:
@@ -129,17 +131,17 @@ class Method:
             name: [] if isinstance(values.get(name), dict) else value
             for name, value in self.data(lambda _: 0).items()
         }
-        checked(_engine.check_method, data, values, defaults)
+        check_settings(_engine.check_method, data, values, defaults)
 
 
 @cache
 def _schema(name: str) -> type:
     """The types of a method's settings as data, where a kernel or a learned order is a table."""
-    own = Method.KNOWN[name]
-    hints = get_type_hints(own)
-    types = {field.name: hints[field.name] for field in fields(own)}
+    method = Method.KNOWN[name]
+    hints = get_type_hints(method)
+    types = {field.name: hints[field.name] for field in fields(method)}
     tables = {name: _table(kind) for name, kind in types.items()}
-    return defstruct(own.__name__, [(name, kind | None, None) for name, kind in tables.items()])
+    return defstruct(method.__name__, [(name, kind | None, None) for name, kind in tables.items()])
 
 
 def _table(kind: Any) -> Any:

@@ -1,4 +1,4 @@
-"""An order of futures that was learned, as a value."""
+"""Learned orders of futures, as values."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from msgspec import Struct
 
 from niwaki import _engine
 from niwaki.errors.schema import fitted
-from niwaki.methods.refusals import checked
+from niwaki.methods.refusals import check_settings
 
 
 class _OrderData(Struct, forbid_unknown_fields=True):
-    """An order as data."""
+    """Order as data."""
 
     functions: dict[str, float] = {}
     depth: float = 0.0
@@ -25,24 +25,27 @@ class _OrderData(Struct, forbid_unknown_fields=True):
 
 @dataclass(frozen=True)
 class FutureOrder:
-    """Which of the futures that can run goes next: a draw in proportion to `exp(l)` of each.
+    """Order of futures: the next future is drawn from those that can run, in proportion to `exp(l)` of each.
 
-    `l` is the number of its function, plus `depth` times the log of one more than the number of futures around it, plus
-    `turns` times the log of one more than how often it has run, plus `waited` times the log of one more than how often
-    others have run since it did or was created, plus `stay` for the future that ran last. All zero, it is the order
-    "stochastic". Any order gives the same final law and evidence without bias; a good one needs fewer particles.
+    For a future with `d` futures around it that has run `r` times, while other futures have run `w` times since it ran
+    or was created,
+
+        l = functions[its function] + depth log(1 + d) + turns log(1 + r) + waited log(1 + w)
+
+    plus `stay` for the future that ran last. With all numbers zero it is the order "stochastic". Every order has the
+    same final distribution, and unbiased evidence; a good order needs fewer particles.
 
     Parameters
     ----------
     functions
-        Numbers for futures that call these functions, by qualified name; 0 for others. Nats, between -50 and 50, as are
-        all numbers here.
+        Numbers for futures that call these functions, by qualified name; 0 for others. All numbers are in nats, between
+        -50 and 50.
     depth, turns, waited, stay
-        As above: a large `stay` is nearly depth first within a future, a large `waited` takes turns.
+        Numbers in the formula. A large `stay` is nearly depth first within a future, a large `waited` takes turns.
 
     See Also
     --------
-    niwaki.guides.train_order : learns one.
+    niwaki.guides.train_order : learns an order.
     """
 
     functions: Mapping[str, float] = field(default_factory=dict, hash=False)
@@ -54,7 +57,7 @@ class FutureOrder:
     def __post_init__(self) -> None:
         """Check the numbers."""
         data = self.data()
-        checked(_engine.check_order, data, data | data["functions"], {})
+        check_settings(_engine.check_order, data, data | data["functions"], {})
 
     def data(self) -> dict[str, Any]:
         """The order as plain data."""
@@ -62,14 +65,14 @@ class FutureOrder:
 
     @classmethod
     def of_data(cls, data: Mapping[str, Any]) -> FutureOrder:
-        """The order of its data.
+        """Read an order from its data.
 
         Raises
         ------
         Unfit
-            It is not an order's data.
+            The data are not those of an order.
         InputError
-            A number is too large.
+            A number is out of range.
         """
         fitted(data, _OrderData)
         return cls(**data)

@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from dataclasses import InitVar, dataclass
 from typing import Any
 
-from niwaki.methods.checks import guided as with_guide
-from niwaki.methods.checks import is_kernel, look_ahead
+from niwaki.methods.checks import check_kernel, look_ahead, with_guide
 from niwaki.methods.guide import Guide
 from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method
@@ -17,67 +16,67 @@ from niwaki.methods.refusals import as_real
 
 @dataclass(frozen=True)
 class Smc(Method):
-    """Particles that are scored and resampled while they grow.
+    """Population of particles that are scored and resampled while they grow.
 
     Parameters
     ----------
     particles
-        How many; at least 1. Several numbers are several populations of those sizes: `Result.info.plan` repeats a
-        search.
+        The number of particles, at least 1. Several numbers are the sizes of several populations: `Result.info.plan`
+        repeats a search.
     order
         "stochastic": after each barrier a uniform draw among the futures that can run; "depth-first": futures run
-        where they are created; a `FutureOrder`: a draw by an order that was learned.
+        where they are created; a `FutureOrder`: a draw by a learned order.
     weights
         "ratio": the ratio of successive scores, so that the final set follows the posterior; "absolute": the whole
-        score at every step, an undeclared sharpening without evidence.
+        score at every step, which sharpens the search and has no evidence.
     power
-        The power to which scores are raised in the final law; 1 for the posterior. For a score that is a normal
-        density of deviation sigma, it is as if sigma were divided by its root. Reported scores are those of power 1.
+        The power of the scores in the final distribution; 1 for the posterior. In a score that is a normal density, the
+        power divides the deviation by the root of the power. Reported scores have power 1.
     resampling
         "systematic", "residual", "stratified" or "multinomial": by weight. "tempered": by a power of the weight, at
-        most 1 and as high as half of the possible particles stay effective; copies carry the rest of the weight, so
-        evidence and final law are the same, and fewer particles that look bad for the moment are lost. Not with
-        absolute weights.
+        most 1, at which half of the possible particles stay effective. Copies carry the rest of the weight, so evidence
+        and final distribution stay the same, and fewer promising particles are lost. Not with absolute weights.
     ess
-        Resample only when the effective sample size falls below this share of the particles; at every barrier when left
-        out.
+        The share of the particles below which the effective sample size must fall for resampling; at every barrier when
+        left out.
     anneal
-        The schedule of powers: one for each barrier (the last also for those after it), or a share of the particles
-        between 0 and 1, so that the power rises from 0 to `power` as fast as this share of the conditional effective
-        sample size allows. The final law is that of `power` for every schedule.
+        The schedule of powers: a power for each barrier (the last also for later barriers), or a share between 0 and 1.
+        With a share the power rises from 0 to `power` as fast as the conditional effective sample size stays at this
+        share of the particles. The final distribution has the power `power` for every schedule.
     populations
-        So many independent populations of `particles` each, side by side, combined by their evidence. 1, or with
-        `diverse` and no `draws` as many as that, when left out.
+        The number of independent populations of `particles` each, side by side, combined by their evidence. The default
+        is 1, or `diverse` if there are no `draws`.
     diverse
-        Give so many results that differ, best score first: none shares more than half of its choices with another. One
-        population ends as many copies of few runs, so this needs several, or `draws`. Where fewer are found, fewer are
-        given, with a warning.
+        The number of results that differ, best score first: no two share more than half of their choices. A population
+        ends as many copies of few runs, so several populations or `draws` are needed. Fewer results are possible, with
+        a warning.
     seconds
-        Instead of a number of particles: a pilot, which is thrown away, measures what a particle costs; then
-        populations of one size run one after the other. Those that are complete when this time is spent count, the one
-        that still runs is dropped; where none is complete the first is finished, and takes longer. So the evidence is
-        unbiased though costly populations are often the good ones. `Result.info.plan` lists their sizes.
+        A time limit in place of a number of particles. A pilot population measures the cost of a particle, and is
+        dropped. Then populations of one size run one after the other. Populations that are complete at the limit count,
+        and the running one is dropped; without a complete population the first one is finished. So the evidence is
+        unbiased, although good populations often cost more. `Result.info.plan` lists their sizes.
     proposal, guide
-        What draws choices in place of the prior, as for `importance`. Not with absolute weights.
+        The proposal and the guide that draw choices in place of the prior, as for `importance`. Not with absolute
+        weights.
     look_ahead
-        Let weights count this share of what a guide expects the log scores of running particles to gain until they end;
-        0.2 is a good one. A guide learns it by `niwaki.guides.train_look_ahead`. In the end it counts nothing, so
-        evidence and final law are the same for every value. Not with absolute weights, and with `rejuvenate` only at
-        the end.
+        The strength of the look-ahead; 0.2 is a good value. Weights of running particles include this share of the gain
+        in log score that a guide expects until their end. A guide learns it by `niwaki.guides.train_look_ahead`. At the
+        end the share is removed, so evidence and final distribution stay the same. Not with absolute weights, and with
+        `rejuvenate` only at the end.
     rejuvenate
-        A kernel of `niwaki.kernels` that moves each particle without changing the law that all follow, so that copies
-        become different again (Gilks & Berzuini 2001). A particle that still runs keeps its skeleton: which parts,
-        which futures, where each call waits; one that has ended may change its structure. Not with absolute weights,
-        no `anneal` or `tempering`, and `hmc_step` and `nuts_step` only at the end.
+        A kernel of `niwaki.kernels` that moves each particle and keeps their distribution, so that copies become
+        different again (Gilks & Berzuini 2001). A running particle keeps its structure: its parts, its futures, and the
+        place of each call. A particle that has ended may change its structure. Not with absolute weights; `anneal` and
+        `tempering` are refused, and `hmc_step` and `nuts_step` move particles at the end only.
     moves
-        Proposals for each particle, each time; `Result.info` counts them, and those that were accepted.
+        The number of proposals for each particle, each time; `Result.info` counts all and accepted proposals.
     at
-        When: once all have ended ("end"); and before that at every so-many-th barrier, or after each resampling
-        ("resampled").
+        The moments of moves: "end", once all particles have ended; a number, also at every so-many-th barrier;
+        "resampled", also after each resampling.
     draws, chains
-        Once all have ended, follow `chains` of them, drawn by weight, instead of moving each: `draws` states of each
-        chain, `moves` proposals apart, are the final set. Much cheaper than as many moves of every particle, as a run
-        is built once for a chain, and they go further.
+        The numbers of states and of chains that replace the final set. Once all particles have ended, `chains` of them,
+        drawn by weight, start chains; `draws` states of each chain, `moves` proposals apart, are the final set. Chains
+        are much cheaper than as many moves of every particle, because a run is built once for a chain.
     """
 
     NAME = "smc"
@@ -105,24 +104,24 @@ class Smc(Method):
         if isinstance(self.particles, (list, tuple, range)):
             self._set("particles", tuple(self.particles))
         self._set("seconds", as_real(self.seconds))
-        is_kernel("rejuvenate", self.rejuvenate)
+        check_kernel("rejuvenate", self.rejuvenate)
         _convert(self, guide)
 
     @property
     def sizes(self) -> tuple[int, ...]:
-        """How many particles each of its populations has, where they are not told by seconds."""
+        """The number of particles of each population, without `seconds`."""
         if not isinstance(self.particles, int):
             return tuple(self.particles)
-        different = None if self.draws is not None else self.diverse
-        return (self.particles,) * (self.populations or different or 1)
+        diverse = None if self.draws is not None else self.diverse
+        return (self.particles,) * (self.populations or diverse or 1)
 
 
 @dataclass(frozen=True)
 class ParticleGibbs(Method):
-    """A chain of whole runs: each sweep is a population that contains the last run; one of its particles is the next.
+    """Chain of whole runs: a sweep is a population with the last run in it, and the next run is one of its particles.
 
-    Right for any number of particles above 1 (Andrieu, Doucet & Holenstein 2010); with ancestor sampling (Lindsten,
-    Jordan & Schon 2014) the held run's past changes too. `Result.info` counts the ancestors that were
+    The chain is right for any number of particles above 1 (Andrieu, Doucet & Holenstein 2010). With ancestor sampling
+    (Lindsten, Jordan & Schon 2014) the past of the held run changes, too. `Result.info` counts the ancestors that were
     another particle, and has the share of choices that each sweep changed.
 
     Parameters
@@ -130,16 +129,16 @@ class ParticleGibbs(Method):
     particles, order, power, ess
         As for `smc`; at least 2 particles.
     sweeps
-        How many; one sample each.
+        The number of sweeps; each gives one sample.
     resampling
-        "multinomial", or "tempered": then independent draws too, by a power of the weight, as for `smc`. The others
-        of `smc` are not offered: beside a held run their draws are not independent.
+        "multinomial", or "tempered", with independent draws by a power of the weight, as for `smc`. The other methods
+        of `smc` are refused, because their draws are not independent with a held run.
     anneal
         The power at each barrier, as for `smc`.
     ancestors
         Whether the past of the held run is drawn again at each resampling.
     proposal, guide
-        What draws choices in place of the prior, as for `importance`.
+        The proposal and the guide that draw choices in place of the prior, as for `importance`.
     look_ahead
         As for `smc`.
     """
@@ -165,22 +164,23 @@ class ParticleGibbs(Method):
 
 @dataclass(frozen=True)
 class Pimh(Method):
-    """A chain whose proposals are whole populations, accepted by the ratio of their evidence.
+    """Chain whose proposals are whole populations, accepted by the ratio of their evidence.
 
-    Right for any number of particles (Andrieu, Doucet & Holenstein 2010, section 2.4.2). `Result.info` counts the
-    accepted proposals. The evidence is the mean of the estimates of all `sweeps + 1` populations, in which those that
-    became impossible count as zero; where all did, it is an error.
+    The chain is right for any number of particles (Andrieu, Doucet & Holenstein 2010, section 2.4.2). `Result.info`
+    counts the accepted proposals. The evidence is the mean of the estimates of all `sweeps + 1` populations. A
+    population that became impossible counts as zero; if all did, it is an error.
 
     Parameters
     ----------
     particles, order, power, resampling, ess
         As for `smc`.
     sweeps
-        How many, after a first population; one sample each, from the first population in which a particle lived.
+        The number of sweeps after a first population; each gives one sample, from the first population with a living
+        particle on.
     anneal
         The power at each barrier, as for `smc`.
     proposal, guide
-        What draws choices in place of the prior, as for `importance`.
+        The proposal and the guide that draw choices in place of the prior, as for `importance`.
     look_ahead
         As for `smc`.
     """
@@ -206,7 +206,7 @@ smc, particle_gibbs, pimh = Smc, ParticleGibbs, Pimh
 
 
 def _convert(method: Smc | ParticleGibbs | Pimh, guide: Guide | None) -> None:
-    """Convert and check the settings that all have."""
+    """Convert the common settings, and check all."""
     for name in ("power", "look_ahead"):
         method._set(name, as_real(getattr(method, name)))
     powers: Any = method.anneal

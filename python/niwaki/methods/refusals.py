@@ -1,4 +1,4 @@
-"""Settings that the engine checks: their data, and the error about one that it refuses."""
+"""Checks of settings by the engine, and errors about settings that it refuses."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from niwaki import _engine
 from niwaki.errors.settings import is_number, refused
 
 
-def checked(
+def check_settings(
     check: Callable[[str], None], data: Any, values: Mapping[str, Any], defaults: Mapping[str, Any]
 ) -> None:
     """Let the engine check settings.
@@ -19,11 +19,11 @@ def checked(
     Parameters
     ----------
     check
-        The engine's check of a text.
+        The check, a function of the engine that takes a text.
     data
         The settings as data.
     values, defaults
-        The settings as a person gave them, and their defaults, by name, for the message.
+        The settings as in the call, and their defaults, by name, for the message.
 
     Raises
     ------
@@ -37,7 +37,7 @@ def checked(
 
 
 def _readable(value: Any) -> Any:
-    """The value, with an empty list, which every range refuses, in place of each part that JSON cannot express."""
+    """Replace each part that JSON cannot express by an empty list, which every range refuses."""
     match value:
         case dict():
             return {str(key): _readable(part) for key, part in value.items()}
@@ -52,5 +52,5 @@ def _readable(value: Any) -> Any:
 
 
 def as_real(value: Any) -> Any:
-    """A whole number as a real number; anything else as it is."""
+    """Convert a whole number to a real number; return anything else unchanged."""
     return float(value) if is_number(value) else value

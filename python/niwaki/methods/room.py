@@ -1,8 +1,7 @@
-"""Whether the counts of a method fit into memory, before its search starts.
+"""Estimates of the memory that the counts of a method need, before its search starts.
 
-The bytes are the least that one takes, with what Python keeps of it: measured as the growth of the resident memory of
-searches of a model with one choice, and rounded down. A larger model takes more; `max_memory` bounds its runs and
-populations while they grow.
+The bytes are lower bounds, with the objects in Python: the growth of the resident memory of searches of a model with
+one choice, rounded down. A larger model takes more; `max_memory` bounds its runs and populations while they grow.
 """
 
 from __future__ import annotations
@@ -21,24 +20,24 @@ from niwaki.methods.method import Method
 from niwaki.methods.normals import Vi
 from niwaki.methods.particles import ParticleGibbs, Pimh, Smc
 
-#: Bytes of a run that is kept, of a particle, of a chain, of a chain that follows the gradient, of one of its
-#: draws, and of a proposal that is planned.
+#: Bytes of a stored run, of a particle, of a chain, of a chain that follows the gradient, of a draw of such a chain,
+#: and of a planned proposal.
 RUN, PARTICLE, CHAIN, GRADIENT_CHAIN, DRAW, MOVE = 700, 1000, 3000, 10_000, 300, 8
 
 #: Bytes of a search that waits for its turn.
 SEARCH = 1000
 
-#: A setting, how many are asked for, the bytes of one, and its name.
+#: A setting, its count, the bytes of one, and the name of one.
 Need = tuple[str, int, int, str]
 
 
 def check_method(method: Method) -> None:
-    """Refuse a method whose counts need more memory than there is.
+    """Refuse a method whose counts need more memory than is free.
 
     Raises
     ------
     InputError
-        The numbers: how many, what each costs, and what is free.
+        The message has the count, the bytes of each, and the free memory.
     """
     for need in _needs(method):
         check_room(*need)
@@ -90,8 +89,8 @@ def _of_population(method: Smc) -> Iterator[Need]:
 
 
 def _of_kernel(kernel: Kernel) -> Iterator[Need]:
-    own: Any = kernel.settings.get("particles")
-    if own is not None:
-        yield "particles", own, PARTICLE, "particle of `regrow`"
+    particles: Any = kernel.settings.get("particles")
+    if particles is not None:
+        yield "particles", particles, PARTICLE, "particle of `regrow`"
     for part in kernel.parts:
         yield from _of_kernel(part)

@@ -1,17 +1,17 @@
-"""What a search gives back.
+"""Results of searches.
 
 result       `Result`, a sequence of samples
 sample       `Sample`, one run
 info         the statistics of each method
 invalid      runs that were invalid, by place
 chains       statistics of Markov chains, and how chains continue
-drawn        draws that are kept as numbers
+drawn        draws that are stored as numbers
 hmc          statistics of chains that follow a gradient
 normals      normals of variational inference
-dragged      what a drag of a part gives
-search_like  what a result knows of its search
-progress     how far a search is
-diagnostics  whether draws of chains can be trusted; draws for ArviZ
+dragged      results of a drag of a part
+search_like  the interface of a search that results use
+progress     the progress of a search
+diagnostics  effective sample sizes, R-hat and other diagnostics of draws; draws for ArviZ
 gradient     the log density of a run, with its gradient
 """
 

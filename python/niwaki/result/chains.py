@@ -15,7 +15,7 @@ from niwaki.methods import Mh
 from niwaki.methods.kernels import Kernel
 from niwaki.once import cached_property
 from niwaki.result.diagnostics import Divergences
-from niwaki.result.hmc import SOME, diverged, kept, listed, refused, say, without_slope
+from niwaki.result.hmc import SOME, divergent, fixed_choices, listed, other_structures, say, without_gradient
 from niwaki.result.info import Info, S
 from niwaki.result.invalid import Invalid
 from niwaki.result.progress import EngineWatch
@@ -25,17 +25,17 @@ from niwaki.result.search_like import SearchLike
 
 
 class Stage(Protocol):
-    """What keeps the checkpoint of chains (`niwaki.search.keeper`)."""
+    """Stage of a search with its part of a checkpoint (`niwaki.search.keeper`)."""
 
     @property
     def engine(self) -> _engine.Checkpoint:
-        """What the engine stores into."""
+        """The engine's part of the checkpoint."""
 
     def collect(self) -> float:
-        """Take what the engine has stored."""
+        """Collect the parts that the engine has stored."""
 
     def finish(self, interrupted: bool) -> None:
-        """Write or remove the file of chains that have ended."""
+        """Write or remove the file at the end of the chains."""
 
 
 @dataclass(frozen=True)
@@ -47,11 +47,11 @@ class Acceptance:
     function, site : str
         The function, and the site as it is written in addresses.
     line : int
-        Its line in the source.
+        The line of the site in the source.
     proposed, accepted : int
-        How many proposals there were, and how many were kept. A proposal of the old value counts as kept.
+        The numbers of proposals, and of accepted proposals. A proposal of the old value counts as accepted.
     outside : int
-        How many lay outside the support of the distribution.
+        The number of proposals outside the support of the distribution.
     """
 
     function: str
@@ -63,7 +63,7 @@ class Acceptance:
 
     @property
     def rate(self) -> float:
-        """The share that was kept."""
+        """The share of accepted proposals."""
         return self.accepted / self.proposed if self.proposed else math.nan
 
 
@@ -76,21 +76,21 @@ class Trajectories:
     kernel : Kernel
         The leaf, with the restrictions that hold for it.
     made, moved : int
-        Transitions, those of the warm-up included, and how many of them moved the chain.
+        The numbers of transitions, with the warm-up, and of those that moved the chain.
     settled : int
-        Transitions after the warm-up.
+        The number of transitions after the warm-up.
     acceptance : float
         Mean acceptance of the trajectories' points after the warm-up: the step was adapted to it.
     divergences : Divergences
         Trajectories after the warm-up that broke off, by the reason; each was rejected.
     warmup_divergences : int
-        Those of the warm-up.
+        The number of trajectories that broke off in the warm-up.
     unwritten : int
-        Ends that were refused because rounding takes the run along another branch than its recording.
+        The number of ends that were rejected, because rounding takes the run along another branch than its recording.
     gradients : int
-        Gradients taken, without those that first guesses of a step took.
+        The number of gradients, without those for first guesses of a step.
     structures, recordings : int
-        Structures met (sets of choices, with the values of discrete ones), and how often the model was recorded.
+        The numbers of structures (choices, with the values of discrete choices), and of recordings of the model.
     step : tuple of float
         The step for one coordinate, by chain (and power).
     fault : ModelFault or None
@@ -113,7 +113,7 @@ class Trajectories:
 
 
 class Running(NamedTuple):
-    """Chains on the engine, what they need to continue, and what keeps their checkpoint."""
+    """Chains on the engine, with the arguments of their continuation and the stage of their checkpoint."""
 
     chains: _engine.Chains
     counted: _engine.Task
@@ -124,7 +124,7 @@ class Running(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class MhInfo(Info):
-    """Of `mh`: statistics of its chains, computed when they are read.
+    """Statistics of `mh`, computed when they are read.
 
     Attributes
     ----------
@@ -133,7 +133,7 @@ class MhInfo(Info):
     seconds : tuple of float
         Wall and processor time so far.
     visits : list of list of int
-        Of each chain, the numbers of proposals before its samples.
+        The numbers of proposals before each sample, by chain.
     """
 
     _HAS_CHAINS = True
@@ -146,7 +146,7 @@ class MhInfo(Info):
     visits: list[list[int]] = field(default_factory=list)
 
     def __getstate__(self) -> dict[str, Any]:
-        """All statistics, without the chains themselves."""
+        """The statistics for pickling, without the chains themselves."""
         for name in ("bests", "last", "acceptance", "trajectories", "counters"):
             getattr(self, name)
         return {**self.__dict__, "_running": None}
@@ -158,8 +158,8 @@ class MhInfo(Info):
         Raises
         ------
         InputError
-            The result was pickled, and its chains stayed behind; or they were moving when this process was forked, or
-            are moving and this is their `progress`.
+            The chains are gone, because the result was pickled, or because they were moving when this process was
+            forked. Or they are moving, and the caller is their `progress`.
         """
         if self._running is None:
             raise InputError("chains-gone", name=self.search.model.name)
@@ -168,20 +168,20 @@ class MhInfo(Info):
         return self._running
 
     def samples_of(self, runs: Iterable[_engine.Run]) -> list[Sample]:
-        """Runs as samples of this search."""
+        """Make samples of runs of this search."""
         return [Sample(run, self.search, self.seed, *self.seconds) for run in runs]
 
     def _pool(self, samples: Sequence[S]) -> list[Sample]:
         return self.bests
 
     def _go_on(self, result: Result, steps: int | None) -> None:
-        """Go on; without a number of proposals, with those that the method names or an earlier process left."""
+        """Continue the chains; by default with the proposals of the method that are not made yet."""
         chains, counted, watch, threads, stage = self.running
-        kept = None if stage is None else stage.engine
+        part = None if stage is None else stage.engine
         wall, cpu = time.perf_counter(), time.process_time()
         try:
             with translated(self.search.model.name, f"seed={result.seed}"):
-                result.interrupted = chains.advance(steps, threads, watch, kept)
+                result.interrupted = chains.advance(steps, threads, watch, part)
         finally:
             result.seconds += time.perf_counter() - wall
             result.cpu_seconds += time.process_time() - cpu
@@ -192,7 +192,7 @@ class MhInfo(Info):
             now = replace(self, visits=visits, seconds=(result.seconds, result.cpu_seconds))
             result.info, result.samples = now, now.samples_of(run for runs in by_chain for run in runs)
             result.sizes = [len(runs) for runs in by_chain]
-            result.invalid = tuple(Invalid(*one) for one in counted.invalid())
+            result.invalid = tuple(Invalid(*fields) for fields in counted.invalid())
         now.warn()
         if steps is not None and stage is not None:
             stage.finish(result.interrupted)
@@ -209,33 +209,34 @@ class MhInfo(Info):
 
     @cached_property
     def acceptance(self) -> dict[str, Acceptance]:
-        """Proposals by site (`function/site`), all chains together; most proposed first."""
-        sites = sorted(self.running.chains.sites(), key=lambda one: -one.proposed)
-        names = [f"{one.function}/{one.site}" for one in sites]
+        """Proposals of all chains by site (`function/site`); the site with most proposals is the first."""
+        sites = sorted(self.running.chains.sites(), key=lambda site: -site.proposed)
+        names = [f"{site.function}/{site.site}" for site in sites]
         return {
-            name if names.count(name) == 1 else f"{name} line {one.line}": Acceptance(
-                one.function, one.site, one.line, one.proposed, one.accepted, one.outside
+            name if names.count(name) == 1 else f"{name} line {site.line}": Acceptance(
+                site.function, site.site, site.line, site.proposed, site.accepted, site.outside
             )
-            for name, one in zip(names, sites, strict=True)
+            for name, site in zip(names, sites, strict=True)
         }
 
     @cached_property
     def trajectories(self) -> list[Trajectories]:
-        """What became of the trajectories of each `hmc` and `nuts` of the kernel, in its order."""
+        """Statistics of the trajectories of each `hmc` and `nuts` in the kernel, in the order of the kernel."""
         leaves = [leaf for leaf in self._leaves if leaf.follows]
-        return [self._travelled(*one) for one in zip(leaves, self.running.chains.trajectories(), strict=True)]
+        counts = self.running.chains.trajectories()
+        return [self._trajectories_of(*pair) for pair in zip(leaves, counts, strict=True)]
 
-    def _travelled(self, leaf: Kernel, counts: dict[str, Any]) -> Trajectories:
+    def _trajectories_of(self, leaf: Kernel, counts: dict[str, Any]) -> Trajectories:
         fault = as_fault(counts["fault"], self.search.model.name, f"seed={self.seed}")
-        own = {"kernel": leaf, "divergences": Divergences(**counts["divergences"]), "fault": fault}
-        return Trajectories(**{**counts, **own})
+        divergences = Divergences(**counts["divergences"])
+        return Trajectories(**{**counts, "kernel": leaf, "divergences": divergences, "fault": fault})
 
     @cached_property
     def counters(self) -> dict[str, int]:
-        """Work done, and the size of the present states, all chains together.
+        """Counters of the work of all chains, and of the size of their present states.
 
-        Proposals, activations entered, calls skipped, instructions, primitives taken out of the scene or put into it
-        (`moved`); primitives, choices and bytes of the present states.
+        They are proposals, activations entered, calls skipped, instructions, primitives removed from the scene or added
+        to it (`moved`), and primitives, choices and bytes of the present states.
         """
         return self.running.chains.counters()
 
@@ -244,7 +245,7 @@ class MhInfo(Info):
         return [] if self.method.kernel is None else self.method.kernel.leaves()
 
     def warn(self) -> None:
-        """Warn about trajectories that affect the use of the samples."""
+        """Warn about choices that no kernel moves, and about trajectories that broke off."""
         name = self.search.model.name
         names = {leaf.name for leaf in self._leaves}
         if names and names <= {"block", "hmc_step", "nuts_step"}:
@@ -255,28 +256,32 @@ class MhInfo(Info):
                 {path for path, value in values if isinstance(value, stays) and is_discrete(value)}
             ):
                 mover = "block" if "block" in names else "gradient"
-                say(kept(held, name, mover, "write `kernels.cycle(kernels.prior(), ...)`"))
-        for one in self.trajectories:
-            broke = one.divergences
+                say(fixed_choices(held, name, mover, "write `kernels.cycle(kernels.prior(), ...)`"))
+        for trajectories in self.trajectories:
+            broke = trajectories.divergences
             if broke.structure and (unmoved := self._unmoved()):
                 say(
-                    f"{refused(broke.structure, one.settled, name)}; no other kernel of the chain moves "
-                    f"{listed(unmoved)}, so the samples may be given the structure of its start; put `kernels.prior()` "
-                    f"beside: `kernels.cycle(kernels.prior(), ...)`"
+                    f"{other_structures(broke.structure, trajectories.settled, name)}; no other kernel of the chain "
+                    f"moves {listed(unmoved)}, so the samples may be given the structure of the start; add "
+                    f"`kernels.prior()`: `kernels.cycle(kernels.prior(), ...)`"
                 )
             if broke.energy:
                 smaller = (
                     "raise its `target`" if self.method.warmup else "give it a smaller `step`, or a `warmup`"
                 )
-                say(diverged(broke.energy, one.settled, name, f"{smaller} (`{one.kernel!r}`)"))
-            if broke.not_finite > SOME * one.made:
-                say(without_slope(broke.not_finite, name, one.fault))
+                say(
+                    divergent(
+                        broke.energy, trajectories.settled, name, f"{smaller} (`{trajectories.kernel!r}`)"
+                    )
+                )
+            if broke.not_finite > SOME * trajectories.made:
+                say(without_gradient(broke.not_finite, name, trajectories.fault))
 
     def _unmoved(self) -> list[str]:
-        """The continuous choices of the present states, by site, that no kernel without a gradient has moved."""
+        """The sites of continuous choices in the present states that no kernel without a gradient has moved."""
         if any(not leaf.follows and leaf.name != "on" for leaf in self._leaves):
             return []
-        proposed = {one.site for one in self.acceptance.values()}
+        proposed = {site.site for site in self.acceptance.values()}
         sites = {
             path.rsplit("/", 1)[-1]
             for sample in self.last

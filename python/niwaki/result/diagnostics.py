@@ -57,7 +57,7 @@ def ess_bulk(draws: ArrayLike) -> float:
 
 
 def ess_tail(draws: ArrayLike) -> float:
-    """Effective sample size for its tails: the smaller of those of the 5 % and the 95 % quantile.
+    """Effective sample size for the tails: the smaller one of the 5 % and the 95 % quantile.
 
     Parameters
     ----------
@@ -243,7 +243,7 @@ def ebfmi(energy: ArrayLike) -> Reals:
 
 @dataclass(frozen=True)
 class Summary:
-    """The figures of one quantity.
+    """Summary of one quantity.
 
     Attributes
     ----------
@@ -290,12 +290,12 @@ class Divergences:
     not_finite: int = 0
 
     def __add__(self, other: Divergences) -> Divergences:
-        """Those of both."""
+        """The sum of two counts, by reason."""
         return Divergences(*map(add, astuple(self), astuple(other)))
 
     @property
     def total(self) -> int:
-        """All of them."""
+        """The number of all trajectories that broke off."""
         return sum(astuple(self))
 
     @property
@@ -396,7 +396,7 @@ def _chains(draws: ArrayLike) -> Reals:
 
 
 def _unit(x: Reals) -> float:
-    """A power of two near the largest number where squares of that may leave the range of numbers; else 1."""
+    """A power of two near the largest number if its square may leave the range of numbers; else 1."""
     most = float(np.abs(x).max(initial=0.0))
     return 2.0 ** (math.frexp(most)[1] - 1) if 0.0 < most < math.inf and not 1e-100 < most < 1e100 else 1.0
 
@@ -418,7 +418,7 @@ def _usable(x: Reals) -> bool:
 
 
 def _no_estimate(x: Reals) -> float:
-    """The size where it cannot be estimated: NaN, or the number of draws when all are the same."""
+    """The effective size if it cannot be estimated: NaN, or the number of draws if all are equal."""
     constant = x.shape[1] >= 2 and bool(np.isfinite(x).all())
     return float(x.size) if constant else math.nan
 
@@ -481,7 +481,7 @@ def _time(rho: Reals) -> float:
 
 
 def together(chains: Sequence[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:
-    """The values of several chains, (chains, draws, ...), of the choices that all of them have."""
+    """Stack the values of the choices that all chains have, (chains, draws, ...)."""
     return {
         path: np.array([chain[path] for chain in chains])
         for path, values in (chains[0].items() if chains else ())

@@ -1,4 +1,4 @@
-"""What a drag gives: the answers, or why there is none; and a part that is still being dragged."""
+"""Results of drags: the answers, or the reason why there is none; and a part under a moving pointer."""
 
 from __future__ import annotations
 
@@ -13,25 +13,24 @@ from niwaki.result.sample import Sample
 
 @dataclass(frozen=True)
 class Dragged:
-    """One answer to a drag.
+    """Answer of a drag.
 
     Attributes
     ----------
     sample : Sample
         The run with the changed choices.
     changed : dict
-        By address: the value before and the value after; None where the run before had no such choice, or the run after
-        has none.
+        The value before and the value after, by address; None for a choice that the run before or after does not have.
     distance, share : float
-        What is left to the point: scene units, and as a share of the scene's size.
+        The distance to the goal: in scene units, and as a share of the scene's size.
     kind : str
-        What was allowed to change: "least" all choices, "fewest" the three that move it most, "own" those of the part's
-        own call, "outermost" those of the model itself, "other" all, from other values, "structure"
-        discrete choices, too.
+        The choices that could change: "least" all, "fewest" the three that move the part most, "own" those of the
+        part's own call, "outermost" those of the model itself, "other" all, from other values,
+        "structure" discrete choices, too.
     part : str
-        The address of the part that is there.
+        The address of the part at the goal.
     holds : dict
-        The choices that place the part there, with their values: a `hold` with which the rest is grown again.
+        The choices that place the part, with their values: a `hold` with which the rest is grown again.
     """
 
     sample: Sample
@@ -45,40 +44,40 @@ class Dragged:
     def follow(
         self, *, seed: int | None = None, threads: int | None = None, progress: Watch | None = None
     ) -> Result:
-        """Grow the rest again around the part, by the method of the sample's search, which holds what places the part.
+        """Grow the rest again around the part, by the method of the sample's search, with the choices of the part held.
 
         Parameters
         ----------
         seed
-            Decides every random choice; that of the search when left out.
+            The seed of all random choices; the seed of the search when left out.
         threads, progress
             As for `niwaki.run`.
 
         Raises
         ------
         InputError
-            With the part there every particle is impossible.
+            Every particle with the part at the goal is impossible.
         """
         search = self.sample.search
         hold = {**search.held, **self.holds}
-        own = replace(search, hold=hold, choices=None, seed=search.seed if seed is None else seed)
-        return own.run(threads=threads, progress=progress)
+        around = replace(search, hold=hold, choices=None, seed=search.seed if seed is None else seed)
+        return around.run(threads=threads, progress=progress)
 
 
 @dataclass(frozen=True)
 class Moved:
-    """A part that is being dragged: the run as it is, without its score.
+    """State of a part under a moving pointer, without a score.
 
     Attributes
     ----------
     scene : Scene
         The scene of the run.
     point : tuple
-        Where the held point is, scene units.
+        The held point, scene units.
     share : float
-        What is left to where it should be, as a share of the scene's size.
+        Its distance to the goal, as a share of the scene's size.
     reason : str
-        Why it is not there; empty where it is.
+        The reason why it is not at the goal; empty if it is.
     """
 
     scene: Scene
@@ -89,16 +88,16 @@ class Moved:
 
 @dataclass(frozen=True)
 class Drag:
-    """The answers to a drag, the least change first; or why there is none.
+    """Answers of a drag, the least change first; or the reason why there is none.
 
     Attributes
     ----------
     answers : list of Dragged
-        Those with the part at the point, none of them impossible.
+        The possible runs with the part at the goal.
     nearest : Dragged or None
-        The nearest that was found, where there is no answer.
+        The nearest state, if there is no answer.
     reason : str
-        Why there is no answer; empty where there is one.
+        The reason why there is no answer; empty with an answer.
     """
 
     answers: list[Dragged]
@@ -107,5 +106,5 @@ class Drag:
 
     @property
     def best(self) -> Dragged | None:
-        """The first answer; without one, the nearest."""
+        """The first answer; without an answer, the nearest state."""
         return self.answers[0] if self.answers else self.nearest

@@ -1,4 +1,4 @@
-"""Draws that are kept as numbers: those of chains that follow a gradient, and of normals.
+"""Draws that are stored as numbers: draws of chains that follow a gradient, and of normals.
 
 A draw becomes a `Sample`, with scene and choices, when it is read.
 """
@@ -24,7 +24,7 @@ Reals = NDArray[np.float64]
 
 
 class Engine(Protocol):
-    """What the engine has of such draws, by chain."""
+    """Interface of the engine to such draws, by chain."""
 
     def choices(self, chain: int) -> list[_engine.Coordinates]:
         """The continuous choices."""
@@ -40,7 +40,7 @@ class Engine(Protocol):
 
 
 class Drawn(Sequence[Sample]):
-    """Draws as samples, those of the first chain first: each is created by a run of the model when it is read."""
+    """Draws as samples, chain by chain: a replay of the model makes a sample when it is read."""
 
     def __init__(self, info: DrawnInfo, seconds: tuple[float, float]) -> None:
         self._info, self._seconds = info, seconds
@@ -70,18 +70,18 @@ class Drawn(Sequence[Sample]):
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class DrawnInfo(Info):
-    """Of methods whose draws are kept as numbers.
+    """Statistics of methods that store draws as numbers.
 
     Attributes
     ----------
     search, seed
         The search, and its seed.
     sizes : tuple of int
-        How many draws each chain, or each normal, has.
+        The number of draws of each chain or normal.
     fixed : list of dict
-        The choices that each held fixed, by address.
+        The fixed choices of each chain or normal, by address.
     log_weights : array of shape (n,) or None
-        Logs of the weights of all draws; None where they weigh the same.
+        Logs of the weights of all draws; None for equal weights.
     """
 
     search: SearchLike
@@ -108,24 +108,24 @@ class DrawnInfo(Info):
         return [samples[self.best_draw]] if len(samples) else samples
 
     def __getstate__(self) -> dict[str, Any]:
-        """All numbers of the draws, without the engine."""
+        """The numbers of the draws for pickling, without the engine."""
         for name in ("values", "positions", "_scores"):
             getattr(self, name)
         return {**self.__dict__, "_engine": None}
 
     def _of_each(self, look: Callable[[Engine, int], Any]) -> list[Any]:
-        """The engine's results of each chain; pickling reads what it needs before."""
+        """Read a result of each chain from the engine."""
         assert self._engine is not None
         return [look(self._engine, chain) for chain in range(len(self.sizes))]
 
     @cached_property
     def values(self) -> list[dict[str, Reals]]:
-        """Of each chain the values of its continuous choices by address: (draws,) or (draws, n)."""
+        """Values of the continuous choices by address, for each chain: (draws,) or (draws, n)."""
 
-        def by_address(found: Engine, chain: int) -> dict[str, Reals]:
-            choices = found.choices(chain)
+        def by_address(engine: Engine, chain: int) -> dict[str, Reals]:
+            choices = engine.choices(chain)
             ends = np.cumsum([choice.width for choice in choices])[:-1]
-            parts = np.split(found.values(chain), ends, axis=1)
+            parts = np.split(engine.values(chain), ends, axis=1)
             return {
                 choice.name: part if choice.is_vector else part[:, 0]
                 for choice, part in zip(choices, parts, strict=True)
@@ -135,7 +135,7 @@ class DrawnInfo(Info):
 
     @cached_property
     def draws(self) -> dict[str, Reals]:
-        """Values of the continuous choices by address, of those that all chains have: as `Result.draws`."""
+        """Values of the continuous choices that all chains have, by address: as `Result.draws`."""
         least = min(self.sizes)
         return together([{path: x[:least] for path, x in chain.items()} for chain in self.values])
 
@@ -147,26 +147,26 @@ class DrawnInfo(Info):
 
     @cached_property
     def _scores(self) -> list[tuple[Reals, Reals]]:
-        """Log prior and log score of each chain's draws: each draw is run for them, when they are first read."""
+        """Log prior and log score of each chain's draws, from a run of each draw at the first read."""
         with translated(self.search.model.name, f"seed={self.seed}"):
-            return self._of_each(lambda found, chain: found.scores(chain))
+            return self._of_each(lambda engine, chain: engine.scores(chain))
 
     @property
     def log_prior(self) -> Reals:
-        """Of the choices of each draw, (chains, draws), nats, as for any sample."""
+        """The log prior of each draw, (chains, draws), nats, as for any sample."""
         return np.array([prior[: min(self.sizes)] for prior, _ in self._scores])
 
     @property
     def log_score(self) -> Reals:
-        """Of factors and observations of each draw, (chains, draws), nats, as for any sample."""
+        """The log score of each draw, (chains, draws), nats, as for any sample."""
         return np.array([score[: min(self.sizes)] for _, score in self._scores])
 
     @property
     def best_draw(self) -> int:
-        """The place of the draw of the best log score."""
+        """The place of the draw with the best log score."""
         return int(np.concatenate([score for _, score in self._scores]).argmax())
 
     @cached_property
     def positions(self) -> list[Reals]:
         """The coordinates of each chain's draws, (draws, dim); see `niwaki.log_density`."""
-        return self._of_each(lambda found, chain: found.positions(chain))
+        return self._of_each(lambda engine, chain: engine.positions(chain))

@@ -1,4 +1,4 @@
-"""The log density of a run over its continuous choices, with its gradient: for samplers and optimisers of your own.
+"""Log densities of runs over continuous choices, with gradients, for samplers and optimisers of your own.
 
 `log_density(sample)` takes any sample of a result. Discrete choices keep the sample's values; continuous ones become
 unconstrained coordinates, with the Jacobian of the transform in the density:
@@ -27,18 +27,18 @@ from niwaki.lang.compiled import translated
 
 
 class LogDensity:
-    """A log density over unconstrained coordinates.
+    """Log density over unconstrained coordinates.
 
-    Where a comparison of the model turns out otherwise than in the run, the model is run again there; this is seen in
-    `recordings` and costs about a run. Scores of a scene are no part of the density.
+    If a comparison of the model has another result than in the run, the model is run again at this point. `recordings`
+    counts these runs. Scores of a scene are no part of the density.
 
     Attributes
     ----------
     start : array of shape (dim,)
         The coordinates of the sample.
     choices : list of Coordinates
-        The continuous choices in the order of the run: `name` (the address), `family`, `transform`, and where the
-        coordinates are, `x[first : first + count]`.
+        The continuous choices in the order of the run: `name` (the address), `family`, `transform`, and the place of
+        the coordinates, `x[first : first + count]`.
     """
 
     def __init__(self, density: _engine.Density) -> None:
@@ -48,26 +48,26 @@ class LogDensity:
 
     @property
     def dim(self) -> int:
-        """How many coordinates there are."""
+        """The number of coordinates."""
         return self._density.dim
 
     @property
     def operations(self) -> int:
-        """How many operations a value with its gradient takes."""
+        """The number of operations for a value with its gradient."""
         return self._density.operations[0]
 
     @property
     def guards(self) -> int:
-        """How many comparisons hold on the path that was used last."""
+        """The number of comparisons on the path that was used last."""
         return self._density.operations[2]
 
     @property
     def recordings(self) -> int:
-        """How often the model was run to record a path."""
+        """The number of runs of the model to record a path."""
         return self._density.recordings
 
     def value_and_gradient(self, x: ArrayLike) -> tuple[float, NDArray[np.float64]]:
-        """The log density and its gradient.
+        """Compute the log density and its gradient.
 
         Parameters
         ----------
@@ -77,9 +77,9 @@ class LogDensity:
         Returns
         -------
         float
-            Nats. Minus infinity where the model would make other choices than in the run.
+            The log density, nats; minus infinity if the model makes other choices than in the run.
         array of shape (dim,)
-            Derivatives; NaN where the value is minus infinity.
+            The derivatives; NaN if the log density is minus infinity.
 
         Raises
         ------
@@ -90,8 +90,8 @@ class LogDensity:
         """
         point = np.ascontiguousarray(x, dtype=np.float64)
         with translated("model"):
-            found = self._density.value_and_gradient(point)
-        return found if found is not None else (-np.inf, np.full(self.dim, np.nan))
+            pair = self._density.value_and_gradient(point)
+        return pair if pair is not None else (-np.inf, np.full(self.dim, np.nan))
 
     def __call__(self, x: ArrayLike) -> float:
         """The log density, nats."""
@@ -103,15 +103,15 @@ class LogDensity:
             return self._density.values(np.ascontiguousarray(x, dtype=np.float64))
 
     def compile(self) -> bool:
-        """Make machine code now; it is made in the background after some hundred gradients otherwise.
+        """Compile machine code now; by default it is compiled in the background after some hundred gradients.
 
         Returns
         -------
         bool
-            Whether this processor has any; without it the density is interpreted.
+            Whether this processor has machine code; without it the density is interpreted.
         """
         return self._density.compile()
 
     def jax(self) -> str:
-        """The text of a module with a JAX function `log_density(x)`, NaN where the model would take another path."""
+        """The text of a module with a JAX function `log_density(x)`, NaN if the model takes another path."""
         return self._density.jax()

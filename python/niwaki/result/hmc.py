@@ -26,7 +26,7 @@ SOME = 0.01
 
 
 class GradientWarning(UserWarning):
-    """A method that follows a gradient gave draws, but did not move every choice or reach every place."""
+    """A method that follows a gradient did not move every choice, or may have missed a part of the distribution."""
 
 
 def say(text: str) -> None:
@@ -35,14 +35,14 @@ def say(text: str) -> None:
 
 
 def listed(paths: Sequence[str]) -> str:
-    """The first few of some choices."""
+    """List the first five choices."""
     return ", ".join(f"`{path}`" for path in paths[:5]) + (
         f" and {len(paths) - 5} more" if len(paths) > 5 else ""
     )
 
 
-def kept(paths: Sequence[str], name: str, mover: str = "gradient", cure: str = "use `mh()`") -> str:
-    """The warning that discrete choices kept their values, because nothing but a `mover` moves any."""
+def fixed_choices(paths: Sequence[str], name: str, mover: str = "gradient", cure: str = "use `mh()`") -> str:
+    """Word the warning that discrete choices kept their values, because a `mover` alone does not move them."""
     many = len(paths) > 1
     return (
         f"{len(paths)} discrete choice{'s' if many else ''} of `{name}` kept the value of each "
@@ -52,16 +52,16 @@ def kept(paths: Sequence[str], name: str, mover: str = "gradient", cure: str = "
     )
 
 
-def refused(count: int, trajectories: int, name: str) -> str:
-    """The warning that trajectories were refused for structure."""
+def other_structures(count: int, trajectories: int, name: str) -> str:
+    """Word the warning that trajectories were rejected, because they reached another structure."""
     return (
         f"{count} of {trajectories} trajectories of `{name}` after the warm-up were refused for structure: "
-        f"the model makes other choices at the points that they reached, and a gradient cannot change the structure"
+        f"they reached points at which the model makes other choices, and a gradient cannot change the structure"
     )
 
 
-def diverged(count: int, trajectories: int, name: str, smaller: str) -> str:
-    """The warning that trajectories diverged; `smaller` describes how to get a smaller step."""
+def divergent(count: int, trajectories: int, name: str, smaller: str) -> str:
+    """Word the warning that trajectories diverged; `smaller` describes how to get a smaller step."""
     return (
         f"{count} of {trajectories} trajectories of `{name}` after the warm-up diverged: the step is too large where "
         f"the density bends sharply, and the draws may miss such places; {smaller}, or reparametrise: instead of "
@@ -69,12 +69,12 @@ def diverged(count: int, trajectories: int, name: str, smaller: str) -> str:
     )
 
 
-def without_slope(count: int, name: str, fault: ModelFault | None) -> str:
-    """The warning that a gradient was not finite; without a fault, neither were the coordinates."""
+def without_gradient(count: int, name: str, fault: ModelFault | None) -> str:
+    """Word the warning that gradients were not finite; without a fault, the coordinates were not finite either."""
     why = (
         f"the first:\n{fault.render()}"
         if fault
-        else "they left the range of numbers: give the values other units"
+        else "their coordinates left the range of numbers: give the values other units"
     )
     return (
         f"{count} trajectories of `{name}` reached points without a finite gradient and were rejected; {why}"
@@ -83,27 +83,27 @@ def without_slope(count: int, name: str, fault: ModelFault | None) -> str:
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class HmcInfo(DrawnInfo):
-    """Of `hmc`, `nuts` and `explore`: the draws as numbers, and statistics of the trajectories.
+    """Statistics of `hmc`, `nuts` and `explore`: the draws as numbers, and statistics of the trajectories.
 
-    Chains that were stopped may have different lengths; arrays (chains, draws) then hold as many draws as the shortest.
+    Chains that were stopped may have different lengths. Arrays (chains, draws) then hold as many draws as the shortest.
 
     Attributes
     ----------
     search, seed, fixed, sizes
-        As of all draws that are numbers: see `DrawnInfo`.
+        As in `DrawnInfo`.
     log_density : array of shape (chains, draws)
-        Over the coordinates in which the chains move, Jacobians included, nats.
+        The log density over the coordinates in which the chains move, with Jacobians, nats.
     stats : dict of str to array
-        Of each draw, (chains, draws): `energy` (nats), `acceptance_rate`, `n_steps`, `tree_depth`, and
-        whether a trajectory since the draw before was refused for structure (`refused_for_structure`) or broke off for
-        another reason (`diverging`).
+        Statistics of each draw, (chains, draws): `energy` (nats), `acceptance_rate`, `n_steps`, `tree_depth`, and
+        whether a trajectory since the draw before was rejected for another structure (`refused_for_structure`) or broke
+        off for another reason (`diverging`).
     step_size : array of shape (chains,)
-        The step sizes that the warm-up ended with.
+        The step sizes at the end of the warm-up.
     divergences : Divergences
-        Trajectories that broke off after the warm-up, by the reason, all chains together: `structure` counts those
-        that were refused for structure, `energy` those that diverged.
+        Trajectories of all chains that broke off after the warm-up, by the reason: `structure` counts those that
+        reached another structure, `energy` those that diverged.
     gradients : int
-        Gradients taken, warm-up included.
+        The number of gradients, with the warm-up.
     fault : ModelFault or None
         The fault, with its line, of the first trajectory that reached a point without a finite gradient.
     """
@@ -118,14 +118,14 @@ class HmcInfo(DrawnInfo):
     fault: ModelFault | None
 
     @classmethod
-    def of(cls, search: SearchLike, seed: int, found: _engine.Trajectories) -> HmcInfo:
-        """The results of chains on the engine."""
-        chains = range(found.chains)
-        draws = [found.draws(chain) for chain in chains]
-        counts = [found.counters(chain) for chain in chains]
-        sizes = tuple(len(one["energy"]) for one in draws)
-        stats = {name: np.array([one[name][: min(sizes)] for one in draws]) for name in draws[0]}
-        faults = (found.fault(chain) for chain in chains)
+    def of(cls, search: SearchLike, seed: int, trajectories: _engine.Trajectories) -> HmcInfo:
+        """Read the results of chains from the engine."""
+        chains = range(trajectories.chains)
+        draws = [trajectories.draws(chain) for chain in chains]
+        counts = [trajectories.counters(chain) for chain in chains]
+        sizes = tuple(len(numbers["energy"]) for numbers in draws)
+        stats = {name: np.array([numbers[name][: min(sizes)] for numbers in draws]) for name in draws[0]}
+        faults = (trajectories.fault(chain) for chain in chains)
         first = next((fault for fault in faults if fault is not None), None)
         return cls(
             search=search,
@@ -136,9 +136,9 @@ class HmcInfo(DrawnInfo):
             step_size=np.array([count["step_size"] for count in counts]),
             divergences=sum((Divergences(**count["divergences"]) for count in counts), Divergences()),
             gradients=sum(count["gradients"] for count in counts),
-            fixed=[{choice.path: choice.value for choice in found.fixed(chain)} for chain in chains],
+            fixed=[{choice.path: choice.value for choice in trajectories.fixed(chain)} for chain in chains],
             fault=as_fault(first, search.model.name, f"seed={seed}"),
-            _engine=found,
+            _engine=trajectories,
         )
 
     def _summary(self) -> diagnostics.Summaries:
@@ -153,18 +153,18 @@ class HmcInfo(DrawnInfo):
         return {**self.stats, "lp": self.log_density, "step_size": step}
 
     def warn(self, method: Hmc | Nuts) -> None:
-        """Warn about what affects the use of the draws: fixed choices, and trajectories that broke off."""
+        """Warn about fixed choices, and about trajectories that broke off."""
         name, broke = self.search.model.name, self.divergences
         held = sorted({path for fixed in self.fixed for path in fixed})
         if held:
-            say(kept(held, name))
+            say(fixed_choices(held, name))
         trajectories = sum(self.sizes) * method.thin
         figures = isinstance(method, Nuts) or not method.designs
         if broke.structure and figures:
             kernel = "nuts_step" if isinstance(method, Nuts) else "hmc_step"
             say(
-                f"{refused(broke.structure, trajectories, name)}; each chain keeps the structure of its start, so the "
-                f"draws are given that structure and are not those of the whole model; use instead "
+                f"{other_structures(broke.structure, trajectories, name)}; each chain keeps the structure of its "
+                f"start, so the draws are given that structure and are not those of the whole model; use instead "
                 f"`mh(kernel=kernels.cycle(kernels.prior(), kernels.{kernel}()))`, with `from niwaki import kernels`"
             )
         if broke.energy and figures:
@@ -173,7 +173,7 @@ class HmcInfo(DrawnInfo):
                 if method.step_size is None
                 else f"take a smaller `step_size` than {method.step_size:g}"
             )
-            say(diverged(broke.energy, trajectories, name, smaller))
+            say(divergent(broke.energy, trajectories, name, smaller))
         # A few trajectories that overshoot into overflow are harmless: they are rejected.
         if broke.not_finite > SOME * trajectories:
-            say(without_slope(broke.not_finite, name, self.fault))
+            say(without_gradient(broke.not_finite, name, self.fault))

@@ -19,23 +19,23 @@ S = TypeVar("S")
 
 
 class Count(NamedTuple):
-    """Proposals, and how many of them were kept."""
+    """Numbers of proposals, and of accepted proposals."""
 
     proposed: int = 0
     kept: int = 0
 
 
 class Losses(NamedTuple):
-    """Partial runs that became impossible at barriers where others of their population lived. Its text is one line.
+    """Partial runs that became impossible at barriers at which others of their population lived. Its text is one line.
 
     Attributes
     ----------
     causes : tuple of (str, int)
-        What made them impossible, and how many; most frequent first.
+        The causes with their numbers of runs, most frequent first.
     blame : tuple of Blame
         The parts that broke a constraint, most frequent first.
     looked_at : int
-        In how many of the runs these were looked for.
+        The number of runs in which parts were looked for.
     """
 
     causes: tuple[tuple[str, int], ...] = ()
@@ -44,34 +44,34 @@ class Losses(NamedTuple):
 
     @classmethod
     def of_several(cls, losses: Iterable[Losses]) -> Losses:
-        """Those of several populations together."""
+        """Merge the losses of several populations."""
         causes: Counter[str] = Counter()
         blame: dict[Any, Blame] = {}
         looked_at = 0
-        for one in losses:
-            causes.update(dict(one.causes))
-            looked_at += one.looked_at
-            for own in one.blame:
-                key = own.constraint, own.part[1:], own.other and own.other[1:]
-                known = blame.get(key)
-                blame[key] = own if known is None else known._replace(runs=known.runs + own.runs)
-        ranked = sorted(blame.values(), key=lambda own: -own.runs)
+        for population in losses:
+            causes.update(dict(population.causes))
+            looked_at += population.looked_at
+            for entry in population.blame:
+                key = entry.constraint, entry.part[1:], entry.other and entry.other[1:]
+                before = blame.get(key)
+                blame[key] = entry if before is None else before._replace(runs=before.runs + entry.runs)
+        ranked = sorted(blame.values(), key=lambda entry: -entry.runs)
         return cls(tuple(causes.most_common()), tuple(ranked), looked_at)
 
     @property
     def total(self) -> int:
-        """How many partial runs were lost."""
+        """The number of lost partial runs."""
         return sum(count for _, count in self.causes)
 
     def __str__(self) -> str:
-        """How many, by what, and which parts; empty where none was lost."""
+        """The number of losses, the causes and a part; empty without losses."""
         if not self.causes:
             return ""
         by = ", ".join(f"{cause} ({count:,})" for cause, count in self.causes)
-        said = [f"lost on the way: {self.total:,} partial run{'' if self.total == 1 else 's'}, by {by}"]
+        texts = [f"lost on the way: {self.total:,} partial run{'' if self.total == 1 else 's'}, by {by}"]
         of = "" if self.looked_at == self.total else " that were looked at"
-        said += [f"{one} in {one.runs} of {self.looked_at}{of}" for one in self.blame[:1]]
-        return "; ".join(said)
+        texts += [f"{entry} in {entry.runs} of {self.looked_at}{of}" for entry in self.blame[:1]]
+        return "; ".join(texts)
 
 
 def _losses(data: Any) -> Losses:
@@ -87,7 +87,7 @@ class Info:
     ----------
     log_evidence : float or None
         Log of the model's total probability, nats; estimated by particles, `ais` and importance, exact by enumeration.
-        None where the method has none, or where the search was stopped.
+        None for other methods, and for a search that was stopped.
     """
 
     log_evidence: float | None = None
@@ -95,10 +95,10 @@ class Info:
     #: Whether the samples are those of chains.
     _HAS_CHAINS: ClassVar[bool] = False
 
-    # What a result asks of its statistics: what only some methods have is None for the others.
+    # A result reads these; None stands for statistics that a method does not have.
 
     def _draws(self) -> dict[str, NDArray[Any]] | None:
-        """Draws that are kept as numbers, by address."""
+        """Draws that are stored as numbers, by address."""
         return None
 
     def _statistics(self) -> dict[str, NDArray[Any]] | None:
@@ -106,42 +106,42 @@ class Info:
         return None
 
     def _summary(self) -> Summaries | None:
-        """Whether the draws can be trusted, where the statistics say more than the draws."""
+        """Summary of the draws and of statistics that are not in the draws."""
         return None
 
     def _log_weights(self) -> NDArray[np.float64] | None:
-        """Logs of the weights of draws that are kept as numbers."""
+        """Logs of the weights of draws that are stored as numbers."""
         return None
 
     def _pool(self, samples: Sequence[S]) -> Sequence[Any]:
-        """The samples of which the best is taken."""
+        """The samples among which the best is found."""
         return samples
 
     def _says(self, samples: str) -> list[str] | None:
-        """How a result is described in one line, given how many samples it has; None: by the best of them."""
+        """Parts of a line that describes a result, with a text about its samples; None for its best sample."""
         return None
 
     def _go_on(self, result: Any, steps: int | None) -> None:
-        """Go on with the chains of a result, which is changed."""
+        """Continue the chains of a result, which is changed."""
         suggestion = "`mh(...)`, or call `polish` first"
-        raise bad("method", result.method, "a result of `mh`, whose chains can go on", suggestion)
+        raise bad("method", result.method, "a result of `mh`, whose chains can continue", suggestion)
 
 
 @dataclass(frozen=True)
 class EnumerationInfo(Info):
-    """Of enumeration.
+    """Statistics of enumeration.
 
     Attributes
     ----------
     table : sequence of (value, float)
         Each value of the model with the log of its probability, nats, not normalised.
     runs : int
-        How many complete runs were visited.
+        The number of complete runs that were visited.
     unseen : float
-        The prior probability of the runs that were not, by `likely`.
+        The prior probability of the runs that were not visited, by `likely`.
     log_unseen : float or None
         Log of the most that they add to the evidence, nats, if the rest of a run adds at most `rest` to its score. None
-        where nothing is left.
+        if every run was visited.
     """
 
     table: tuple[tuple[Any, float], ...] = ()
@@ -153,41 +153,41 @@ class EnumerationInfo(Info):
         return [f"{len(self.table)} values, {self.runs} runs"]
 
     def bounds(self, value: Any) -> tuple[float, float]:
-        """The probability of a value lies between these; both are the same where all runs were visited.
+        """Bound the probability of a value; both bounds are equal if all runs were visited.
 
         Parameters
         ----------
         value
-            A value of the model. Where the model has both, `1` is not `True`, and `0.0` not `-0.0`.
+            A value of the model. If the model has both, `1` is not `True`, and `0.0` is not `-0.0`.
         """
-        same = [found for found, _ in self.table if repr(found) == repr(value)]
+        is_listed = any(repr(entry) == repr(value) for entry, _ in self.table)
         unseen = -inf if self.log_unseen is None else self.log_unseen
         most = max([unseen, *(log for _, log in self.table)])
         seen = sum(exp(log - most) for _, log in self.table)
-        own = sum(
+        share = sum(
             exp(log - most)
-            for found, log in self.table
-            if (repr(found) == repr(value) if same else found == value)
+            for entry, log in self.table
+            if (repr(entry) == repr(value) if is_listed else entry == value)
         )
-        left = exp(unseen - most)
-        return own / (seen + left), (own + left) / (seen + left)
+        rest = exp(unseen - most)
+        return share / (seen + rest), (share + rest) / (seen + rest)
 
 
 @dataclass(frozen=True)
 class AnnealedInfo(Info):
-    """Of annealed importance sampling.
+    """Statistics of annealed importance sampling.
 
     Attributes
     ----------
     effective : float
-        The effective sample size of the weights, between 1 and the number of particles. A small one says that the
-        ladder has too few rungs, or too few moves at each.
+        The effective sample size of the weights, between 1 and the number of particles. It is small if the ladder has
+        too few rungs, or too few moves at each rung.
     powers : tuple of float
         The powers of the score, without the first, 0.
     tries : int
-        Forward runs that the first states took: as many as particles where every run of the prior is possible.
+        The number of forward runs for the first states: the number of particles if every run of the prior is possible.
     moved : Count
-        Proposals of all particles, and those that were kept.
+        Proposals of all particles, and the accepted ones.
     """
 
     effective: float = 0.0
@@ -202,12 +202,12 @@ class AnnealedInfo(Info):
 
 @dataclass(frozen=True)
 class RejectionInfo(Info):
-    """Of rejection sampling.
+    """Statistics of rejection sampling.
 
     Attributes
     ----------
     tries : int
-        Runs that it took.
+        The number of runs that were drawn.
     """
 
     tries: int = 0
@@ -215,29 +215,29 @@ class RejectionInfo(Info):
 
 @dataclass(frozen=True)
 class PopulationInfo(Info):
-    """Of `smc`.
+    """Statistics of `smc`.
 
     Attributes
     ----------
     log_normaliser : float or None
-        Log of the final law's normalising constant, nats: with scores raised to `power`, so that it is
-        `log_evidence` at power 1. None for absolute weights, and where the search was stopped.
+        Log of the normalising constant of the final distribution, nats, with scores raised to `power`: it is
+        `log_evidence` at power 1. None for absolute weights, and for a search that was stopped.
     plan : tuple of int
         Sizes of the populations; `smc(particles=plan)` with the same seed repeats a search by `seconds`.
     barriers : int
-        Barriers of the population that met most.
+        The number of barriers of the population with most barriers.
     steps : int
-        How often a particle ran to a barrier.
+        The number of times that a particle ran to a barrier.
     resampled : int
-        At how many barriers a population was resampled.
+        The number of barriers at which a population was resampled.
     ancestors : int
-        Particles of the first barrier from which the final set descends.
+        The number of particles of the first barrier from which the final set descends.
     died : int
-        Populations in which every particle became impossible; their evidence is zero, and counts.
+        The number of populations in which every particle became impossible; their evidence counts as zero.
     powers : tuple of float
-        The power at each barrier where it is not constant, of the first population.
+        The power at each barrier of the first population, if the power is not constant.
     moved_running, moved_ended : Count
-        Proposals of rejuvenation: of particles that still ran, and of those that had ended.
+        Proposals of rejuvenation, for running particles and for particles that had ended.
     losses : Losses
         Particles that became impossible while others lived.
     """
@@ -263,18 +263,18 @@ class PopulationInfo(Info):
 
 @dataclass(frozen=True)
 class SweepInfo(Info):
-    """Of `particle_gibbs` and `pimh`, chains of whole runs.
+    """Statistics of `particle_gibbs` and `pimh`, chains of whole runs.
 
     Attributes
     ----------
     tries : int
-        How often the chain could have moved: ancestors drawn for the held run; proposals.
+        The number of draws of an ancestor for the held run, or of proposals.
     moves : int
-        How often it did: ancestors that were another particle; proposals accepted.
+        The number of ancestors that were another particle, or of accepted proposals.
     renewed : tuple of float
-        The share of choices that each sweep changed, from the first that found a possible run.
+        The share of choices that each sweep changed, from the first sweep with a possible run.
     died : int
-        Populations in which every particle became impossible; their estimate is zero, and counts.
+        The number of populations in which every particle became impossible; their estimate counts as zero.
     """
 
     tries: int = 0
@@ -284,7 +284,7 @@ class SweepInfo(Info):
 
 
 class Attempt(NamedTuple):
-    """A first population of `improve`: its form, its particles, and the barrier at which the last died, or None."""
+    """First population of `improve`: its form, its particles, and the barrier at which all were dead, or None."""
 
     form: str
     particles: int
@@ -292,18 +292,18 @@ class Attempt(NamedTuple):
 
 
 class Round(NamedTuple):
-    """A round of `improve`.
+    """Round of `improve`.
 
     Attributes
     ----------
     kind : str
-        Its kind of step: "population", "regrow", "regrow more" or "move".
+        The kind of step: "population", "regrow", "regrow more" or "move".
     work : int
-        Particle-steps, proposals, and shapes that proposals placed or removed.
+        The number of particle-steps, of proposals, and of shapes that proposals placed or removed.
     best : float
-        The best log score after it, nats.
+        The best log score after the round, nats.
     parts : int
-        Parts that were grown again and kept.
+        The number of parts that were grown again and accepted.
     """
 
     kind: str
@@ -314,20 +314,20 @@ class Round(NamedTuple):
 
 @dataclass(frozen=True)
 class ImproveInfo(Info):
-    """Of `improve`; of several results, that of the search with the best. Its text says what was done.
+    """Statistics of `improve`; of several results, of the search with the best one. Its text describes the rounds.
 
     Attributes
     ----------
     attempts : tuple of Attempt
         The populations that were tried until one lived.
     rounds : tuple of Round
-        That population, and then each round.
+        The population that lived, and then each round.
     searches : int
-        Searches for results that differ.
+        The number of searches for results that differ.
     losses : Losses
-        Particles of the first population that lived, which became impossible.
+        The particles that became impossible in the population that lived.
     seconds : tuple of float
-        When each round ended, from the beginning, by the clock. Two searches with other seconds alone are equal.
+        Seconds from the beginning to the end of each round. Comparisons of statistics ignore them.
     """
 
     attempts: tuple[Attempt, ...] = ()
@@ -339,33 +339,33 @@ class ImproveInfo(Info):
     def __post_init__(self) -> None:
         """Name the rounds of the engine."""
         object.__setattr__(self, "losses", _losses(self.losses))
-        object.__setattr__(self, "attempts", tuple(Attempt(*one) for one in self.attempts))
-        object.__setattr__(self, "rounds", tuple(Round(*one) for one in self.rounds))
+        object.__setattr__(self, "attempts", tuple(Attempt(*fields) for fields in self.attempts))
+        object.__setattr__(self, "rounds", tuple(Round(*fields) for fields in self.rounds))
 
     def __str__(self) -> str:
-        """What was done, with the seconds and the best log score then."""
-        said = []
-        for one in self.attempts:
-            form = "" if one is self.attempts[0] else f" ({one.form})"
-            how = "" if one.died_at is None else f", which died at barrier {one.died_at}"
-            said.append(f"population of {one.particles}{form}{how}")
+        """The steps of the search, with the seconds and the best log score after them."""
+        steps = []
+        for attempt in self.attempts:
+            form = "" if attempt is self.attempts[0] else f" ({attempt.form})"
+            end = "" if attempt.died_at is None else f", which died at barrier {attempt.died_at}"
+            steps.append(f"population of {attempt.particles}{form}{end}")
         if self.rounds:
-            said[-1] += self._at(0)
+            steps[-1] += self._at(0)
         if len(self.rounds) > 1:
             later = self.rounds[1:]
             parts, moves, more = (
-                sum(one.parts for one in later),
-                any(one.kind == "move" for one in later),
-                sum(one.kind == "population" for one in later),
+                sum(step.parts for step in later),
+                any(step.kind == "move" for step in later),
+                sum(step.kind == "population" for step in later),
             )
-            what = [f"{parts} part{'' if parts == 1 else 's'} grown again"]
-            what += [f"{more} more population{'' if more == 1 else 's'}"] * (more > 0)
-            what += ["single choices moved"] * moves
-            said.append(", ".join(what) + self._at(-1))
-        return "; ".join(said)
+            kinds = [f"{parts} part{'' if parts == 1 else 's'} grown again"]
+            kinds += [f"{more} more population{'' if more == 1 else 's'}"] * (more > 0)
+            kinds += ["single choices moved"] * moves
+            steps.append(", ".join(kinds) + self._at(-1))
+        return "; ".join(steps)
 
     def _at(self, number: int) -> str:
-        """When a round ended, and with which score."""
+        """The time and the best score at the end of a round."""
         return f", {self.seconds[number]:.1f} s: {self.rounds[number].best:.1f}"
 
 
@@ -382,14 +382,14 @@ INFOS: dict[str, type[Info]] = {
 
 
 def without_evidence(info: Info) -> Info:
-    """The statistics of one of several runs, which have no constant in common."""
+    """Remove the evidence from the statistics of one of several runs, which have no normalising constant in common."""
     if isinstance(info, PopulationInfo):
         return replace(info, log_evidence=None, log_normaliser=None)
     return replace(info, log_evidence=None)
 
 
 def stored_info(info: Info) -> dict[str, Any] | None:
-    """Statistics as plain data; None for those of chains, which runs do not share."""
+    """Write statistics as plain data; None for statistics of chains, which runs do not share."""
     kinds = {type(info): name for name, kind in INFOS.items() if type(info) is kind}
     if type(info) is not Info and not kinds:
         return None
@@ -397,7 +397,7 @@ def stored_info(info: Info) -> dict[str, Any] | None:
 
 
 def restored_info(data: dict[str, Any] | None) -> Info:
-    """Statistics of what `stored_info` gave."""
+    """Read statistics from the data of `stored_info`."""
     if data is None:
         return Info()
     fields = {name: _tuples(value) for name, value in data["fields"].items()}
@@ -405,5 +405,5 @@ def restored_info(data: dict[str, Any] | None) -> Info:
 
 
 def _tuples(value: Any) -> Any:
-    """Lists as tuples, at any depth."""
-    return tuple(_tuples(one) for one in value) if isinstance(value, list) else value
+    """Replace lists by tuples, at any depth."""
+    return tuple(_tuples(entry) for entry in value) if isinstance(value, list) else value

@@ -1,9 +1,10 @@
-"""Invalid runs of a search: how many there were, where, and an example of each place."""
+"""Invalid runs of a search, by place: their number, and an example of each place."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from itertools import chain
 from pathlib import PurePath
 
 
@@ -11,24 +12,24 @@ from pathlib import PurePath
 class Invalid:
     """Invalid runs at one place.
 
-    A run is invalid where a call has no result for its arguments: a distribution whose parameters are out of range, a
-    shape that cannot be, a host function that raises an exception. It has probability zero, and counts at the first
+    A run is invalid if a call has no result for its arguments: a distribution whose parameters are out of range, an
+    impossible shape, a host function that raises an exception. The run has probability zero, and counts at the first
     such call.
 
     Attributes
     ----------
     name : str
-        What is called: a distribution, a shape, a host function.
+        The name of the distribution, shape or host function.
     file : str
         The source file of the call.
     line : int
-        Its line.
+        The line of the call.
     runs : int
-        How many runs, proposals and points of trajectories were invalid there.
+        The number of runs, proposals and points of trajectories that were invalid there.
     call : str
-        The call of one of them, with its arguments: the shortest.
+        The shortest of the calls, with its arguments.
     reason : str
-        Why that call has no result; empty where the result was stored in a batch.
+        The reason why that call has no result; empty for a result that was stored in a batch.
     """
 
     name: str
@@ -45,12 +46,12 @@ class Invalid:
 
 
 def merged(*several: Iterable[Invalid]) -> tuple[Invalid, ...]:
-    """Those of several searches together, by place, in the order of files and lines."""
-    found: dict[tuple[str, int, str], Invalid] = {}
-    for one in (one for some in several for one in some):
-        place = (one.file, one.line, one.name)
-        other = found.get(place, replace(one, runs=0))
-        # As in the engine: the example does not depend on the order.
-        shortest = min(one, other, key=lambda own: (len(own.call), own.call, own.reason))
-        found[place] = replace(shortest, runs=one.runs + other.runs)
-    return tuple(found[place] for place in sorted(found))
+    """Merge the invalid runs of several searches, by place, in the order of files and lines."""
+    by_place: dict[tuple[str, int, str], Invalid] = {}
+    for entry in chain.from_iterable(several):
+        place = (entry.file, entry.line, entry.name)
+        before = by_place.get(place, replace(entry, runs=0))
+        # The engine takes the same example, which does not depend on the order.
+        shortest = min(entry, before, key=lambda example: (len(example.call), example.call, example.reason))
+        by_place[place] = replace(shortest, runs=entry.runs + before.runs)
+    return tuple(by_place[place] for place in sorted(by_place))

@@ -21,62 +21,61 @@ UNEVEN = 0.7
 #: A normal whose bound is this far below that of another, nats, may hide a k of 0.7. Of normal models, a mean field
 #: whose weights have the shape k is below by `-(log(1 - k) + k) / 2` or more, in any number of coordinates.
 GAP = -0.5 * (math.log1p(-UNEVEN) + UNEVEN)
-#: A difference is seen where it is this many standard errors: false alarms are rarer than one in 700.
+#: A difference counts if it is this many standard errors: false alarms are rarer than one in 700.
 CLEAR = 3.0
-#: Where this share of the draws is effective, weights hardly differ, and the shape of their tail does not matter.
+#: If this share of the draws is effective, the weights hardly differ, and the shape of their tail does not matter.
 EVEN = 0.95
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class ViInfo(DrawnInfo):
-    """Of `vi`: the normals, with the draws from them as numbers.
+    """Statistics of `vi`: the normals, with the draws from them as numbers.
 
-    There is one normal, or with `family="pathfinder"` one for each path. A draw's weight is the ratio of the model's
-    density to that of all normals together, `log p - log (1/n) sum_j q_j`. Draws of density zero are counted, and are
-    not among the samples. `log_evidence` is estimated by the draws' weights. The density of a normal over an angle is
-    that of the normal wound around the circle.
+    There is one normal, or with `family="pathfinder"` one for each path. The log weight of a draw is the log ratio of
+    the densities of the model and of all normals together, `log p - log (1/n) sum_j q_j`. Draws of density zero are
+    counted, but are not among the samples. The weights of the draws estimate `log_evidence`. A normal over an angle is
+    wound around the circle.
 
     Attributes
     ----------
     search, seed, sizes, log_weights
-        As of all draws that are numbers: see `DrawnInfo`. The weights are smoothed.
+        As in `DrawnInfo`. The weights are smoothed.
     log_evidence_bound : float
         The evidence bound of the best normal, nats, estimated by its draws: below the log evidence by the divergence
-        `KL(q || p)`. Minus infinity where some draws have density zero.
+        `KL(q || p)`. Minus infinity if some draws have density zero.
     bound_error : float
-        Its standard error, nats.
+        The standard error of the bound, nats.
     k_hat : float
-        Pareto's k of the weights. Above 0.7 the normal misses too much, and estimates by weight are not to be trusted;
-        unless nearly all draws are `effective`. It sees only places where there are draws.
+        Pareto's k of the weights. Above 0.7 the normal misses too much, and weighted estimates are unreliable, unless
+        nearly all draws are `effective`. It depends only on regions with draws.
     k_curvature : float
-        The k that the weights of the best normal would have if the model were the normal whose curvature the draws'
-        slopes show. So it tells of a tail that no draw has reached. NaN with fewer than four draws for each
-        coordinate.
+        The k of the weights of the best normal, if the model were the normal with the curvature that the slopes at the
+        draws show. So it detects a tail that no draw has reached. NaN with fewer than four draws for each coordinate.
     k_curvature_error : float
-        Its standard error.
+        The standard error of `k_curvature`.
     log_ratios : array of shape (n,)
         `log p - log q` of the draws over coordinates, nats: the logs of the weights before they are smoothed. `q` is
         the density of all normals together.
     bounds : list of array
-        Of each normal, estimates of the bound by step, nats: of the ascent of the bound, or along the path.
+        Estimates of the bound by step for each normal, nats: in the ascent of the bound, or along the path.
     means : list of array of shape (dim,)
         The mean of each normal, in coordinates.
     covariances : list of array of shape (dim,) or (dim, dim)
         Variances of independent coordinates, or the covariance.
     best_normal : int
-        Which has the highest bound.
+        The number of the normal with the highest bound.
     log_path_bound : float or None
-        The evidence bound of the path's normal at which an ascent started, nats, where all of its draws have a density.
+        The evidence bound of the path's normal at which an ascent started, nats; None if a draw has density zero.
     path_bound_error : float or None
-        Its standard error, nats.
+        The standard error of `log_path_bound`, nats.
     converged : bool
         Whether the ascent ended by its tolerance.
     impossible : int
-        Draws of density zero.
+        The number of draws of density zero.
     gradients : int
-        Gradients taken.
+        The number of gradients.
     broke : int or None
-        The step at which the ascent broke off, because the bound was no number or fell; the best before is the result.
+        The step at which the ascent broke off, because the bound was no number or fell; the result is from before.
     fault : ModelFault or None
         The fault, with its line, of a draw without a finite density there.
     """
@@ -100,26 +99,26 @@ class ViInfo(DrawnInfo):
     fault: ModelFault | None
 
     @classmethod
-    def of(cls, search: SearchLike, seed: int, found: _engine.Normals) -> ViInfo:
-        """The results of the engine."""
-        normals = range(found.chains)
-        counts = [found.counters(one) for one in normals]
-        densities = [found.densities(one) for one in normals]
+    def of(cls, search: SearchLike, seed: int, fit: _engine.Normals) -> ViInfo:
+        """Read the results of the engine."""
+        normals = range(fit.chains)
+        counts = [fit.counters(normal) for normal in normals]
+        densities = [fit.densities(normal) for normal in normals]
         bounds = [
-            _bound(p - own, count["impossible"]) for (p, own, _), count in zip(densities, counts, strict=True)
+            _bound(p - q, count["impossible"]) for (p, q, _), count in zip(densities, counts, strict=True)
         ]
         best = int(np.argmax([mean for mean, _ in bounds]))
         ratios = [p - together for p, _, together in densities]
-        every = np.concatenate(ratios)
-        curvature = _curvature(*found.slopes(best))
+        log_ratios = np.concatenate(ratios)
+        curvature = _curvature(*fit.slopes(best))
         path_bound = counts[best]["path_bound"] or (None, None)
-        log_weights, k_hat = psis(every)
+        log_weights, k_hat = psis(log_ratios)
         lost = sum(count["impossible"] for count in counts)
-        moments = [found.moments(one) for one in normals]
-        faults = (found.fault(one) for one in normals)
+        moments = [fit.moments(normal) for normal in normals]
+        faults = (fit.fault(normal) for normal in normals)
         first = next((fault for fault in faults if fault is not None), None)
         return cls(
-            log_evidence=_log_mean(every, len(every) + lost),
+            log_evidence=_log_mean(log_ratios, len(log_ratios) + lost),
             search=search,
             seed=seed,
             sizes=tuple(map(len, ratios)),
@@ -130,8 +129,8 @@ class ViInfo(DrawnInfo):
             k_hat=k_hat,
             k_curvature=curvature[0],
             k_curvature_error=curvature[1],
-            log_ratios=every,
-            bounds=[found.bounds(one) for one in normals],
+            log_ratios=log_ratios,
+            bounds=[fit.bounds(normal) for normal in normals],
             means=[mean for mean, _ in moments],
             covariances=[covariance for _, covariance in moments],
             best_normal=best,
@@ -142,7 +141,7 @@ class ViInfo(DrawnInfo):
             gradients=sum(count["gradients"] for count in counts),
             broke=next((count["broke"] for count in counts if count["broke"] is not None), None),
             fault=as_fault(first, search.model.name, f"seed={seed}"),
-            _engine=found,
+            _engine=fit,
         )
 
     @property
@@ -153,7 +152,7 @@ class ViInfo(DrawnInfo):
 
     @property
     def effective(self) -> float:
-        """How many draws of equal weight would say as much."""
+        """The effective sample size of the weights."""
         logs = self.log_weights
         if logs is None or not len(logs):
             return 0.0
@@ -175,13 +174,13 @@ class ViInfo(DrawnInfo):
         }
 
     def warn(self, method: Vi, interrupted: bool) -> None:
-        """Warn about what affects the use of the draws."""
+        """Warn about an ascent that broke off or did not end, impossible draws, and a poor fit."""
         name = self.search.model.name
         if self.broke is not None:
             why = f":\n{self.fault.render()}" if self.fault else ""
             say(
                 f"the ascent of the bound of `{name}` broke off at step {self.broke}, because the bound was no number "
-                f"or fell far; the best normal before that is kept{why}"
+                f"or fell far; the result is the best normal before that step{why}"
             )
         elif not self.converged and not interrupted:
             say(
@@ -198,12 +197,12 @@ class ViInfo(DrawnInfo):
         if missed:
             wider = "" if method.family == "full-rank" else ' take `family="full-rank"`, or'
             say(
-                f"{missed}: the normal misses a part of the distribution, and estimates by weight are not to be "
-                f"trusted;{wider} use `nuts(metric=result.metric)` from `choices=result.best.choices`"
+                f"{missed}: the normal misses a part of the distribution, and weighted estimates are "
+                f"unreliable;{wider} use `nuts(metric=result.metric)` from `choices=result.best.choices`"
             )
 
     def _missed(self, interrupted: bool) -> str | None:
-        """How one sees that the normal misses a part of the distribution; None where one does not."""
+        """Word the evidence that the normal misses a part of the distribution; None without evidence."""
         name = self.search.model.name
         if self.k_hat > UNEVEN and self.effective < EVEN * len(self.log_ratios):
             return f"Pareto's k of the weights of `{name}` is {self.k_hat:.2f}, above {UNEVEN}"
@@ -235,12 +234,12 @@ def _bound(ratios: Reals, impossible: int) -> tuple[float, float]:
 
 
 def _curvature(z: Reals, slopes: Reals) -> tuple[float, float]:
-    """The k of the weights of a normal model, by the slopes of the log weights at the draws, and its standard error.
+    """Estimate the k of the weights of a normal model by the slopes of the log weights at the draws, with its error.
 
-    Of a normal model these slopes are a linear function of the draws, `slopes = B z` with `z` standard normal, and
+    For a normal model these slopes are a linear function of the draws, `slopes = B z` with `z` standard normal, and
     the log weight grows like `k z^2 / 2` where it grows most: `k` is the largest eigenvalue of `B`. For any other
-    model `B` is the mean curvature. The direction is that of one half of the draws, the growth along it that of the
-    other half, so that the noise that chose the direction does not raise it.
+    model `B` is the mean curvature. One half of the draws determines the direction, and the other half the growth
+    along it, so that the noise in the choice of the direction does not raise the growth.
 
     Parameters
     ----------
@@ -250,11 +249,11 @@ def _curvature(z: Reals, slopes: Reals) -> tuple[float, float]:
     n, dim = z.shape
     if n < 4 * (dim + 1) or not (np.isfinite(slopes).all() and dim):
         return math.nan, math.nan
-    one, other = slice(0, None, 2), slice(1, None, 2)
-    centred = z[one] - z[one].mean(axis=0)
-    b = np.linalg.lstsq(centred, slopes[one], rcond=None)[0]
+    even, odd = slice(0, None, 2), slice(1, None, 2)
+    centred = z[even] - z[even].mean(axis=0)
+    b = np.linalg.lstsq(centred, slopes[even], rcond=None)[0]
     direction = np.linalg.eigh(b + b.T)[1][:, -1]
-    along, slope = z[other] @ direction, slopes[other] @ direction
+    along, slope = z[odd] @ direction, slopes[odd] @ direction
     along -= along.mean()
     squares = float(np.square(along).sum())
     k = float(along @ slope) / squares

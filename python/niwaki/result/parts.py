@@ -1,7 +1,7 @@
-"""The choices of a part of a run, to hold them in another search.
+"""Choices of a part of a run, to hold them in another search.
 
-A part is a call or an iteration of a loop: what is at and below its address. What decides that it exists is above it:
-the choices of the calls around it, and of the earlier iterations of the loops that it is in.
+A part is a call or an iteration of a loop: the choices at and below its address. Choices above it decide whether it
+exists: those of the calls around it, and of the earlier iterations of its loops.
 """
 
 from __future__ import annotations
@@ -18,29 +18,30 @@ from niwaki.errors.settings import bad
 _ITERATION = re.compile(r"(.*)\[(\d+)\](.*)")
 
 
-#: What is held, in every search, drag and command: values by address; or addresses and patterns of a run that is there,
-#: one or several, which keep the values that they have in it.
+#: Held choices, in every search, drag and command: values by address; or one or several addresses and patterns, which
+#: take the values of an existing run.
 Hold: TypeAlias = Mapping[str, Any] | str | Iterable[str]
 
 
 def held(hold: Hold, choices: Mapping[str, Any] | None, scene: Iterable[str], name: str) -> Mapping[str, Any]:
-    """The values of what is held, by address.
+    """Resolve held choices to values by address.
 
     Parameters
     ----------
     hold
-        What is held.
+        Values, addresses or patterns.
     choices
-        The choices of the run that is there; None without one.
+        The choices of an existing run; None without a run.
     scene
-        The addresses of its scene's primitives.
+        The addresses of the primitives in the scene of that run.
     name
-        The model, for messages.
+        The name of the model, for messages.
 
     Raises
     ------
     InputError
-        `no-address`: a pattern matches nothing; `hold-without-run`: there is no run for it; `bad-setting`: it is none.
+        `no-address`: a pattern matches nothing; `hold-without-run`: patterns without a run; `bad-setting`: another
+        type.
     """
     if isinstance(hold, Mapping) and all(isinstance(address, str) for address in hold):
         return hold
@@ -56,66 +57,68 @@ def held(hold: Hold, choices: Mapping[str, Any] | None, scene: Iterable[str], na
         raise InputError(
             "hold-without-run", flag="hold", other="`choices`", cure='`hold=result.held("wing[1]")`'
         )
-    taken = chosen(patterns, choices, scene, name) if patterns else set()
-    return {address: value for address, value in choices.items() if address in taken}
+    addresses = held_addresses(patterns, choices, scene, name) if patterns else set()
+    return {address: value for address, value in choices.items() if address in addresses}
 
 
-def chosen(patterns: Sequence[str], choices: Iterable[str], scene: Iterable[str], name: str) -> set[str]:
-    """The addresses among `choices` that the patterns hold; `scene` are the addresses of the scene's primitives.
+def held_addresses(
+    patterns: Sequence[str], choices: Iterable[str], scene: Iterable[str], name: str
+) -> set[str]:
+    """Find the addresses among `choices` that patterns hold; `scene` has the addresses of the scene's primitives.
 
     Raises
     ------
     InputError
-        A pattern matches neither a choice nor a part; with those that are nearest.
+        A pattern matches neither a choice nor a part; the message names the nearest addresses.
     """
     choices = list(choices)
     emitted = {place: _above(place) for place in scene}
     calls = {call for address in [*choices, *emitted] for call in _calls(address)}
-    found: set[str] = set()
+    held: set[str] = set()
     for pattern in patterns:
-        own = {address for address in choices if _engine.matches(pattern, address)}
+        matches = {address for address in choices if _engine.matches(pattern, address)}
         parts = {call for call in calls if _engine.matches(pattern, call)}
         parts |= {call for place, call in emitted.items() if _engine.matches(pattern, place)}
-        if not own and not parts:
+        if not matches and not parts:
             near = _engine.nearest(pattern, [*choices, *sorted(calls)])
-            nearest = ", ".join(f"`{one}`" for one in near) or "none: the run has no choice"
+            nearest = ", ".join(f"`{address}`" for address in near) or "none: the run has no choice"
             raise InputError("no-address", pattern=pattern, name=name, nearest=nearest)
         above = {call for part in parts for call in deciding(part)}
-        found |= own
-        found |= {address for address in choices if _above(address) in above}
-        found |= {address for address in choices if any(_is_below(address, part) for part in parts)}
-    return found
+        held |= matches
+        held |= {address for address in choices if _above(address) in above}
+        held |= {address for address in choices if any(_is_below(address, part) for part in parts)}
+    return held
 
 
-def matching(pattern: str, choices: Iterable[str], scene: Iterable[str], name: str) -> list[str]:
-    """The calls and iterations that a pattern matches, without those inside of another one, in the order of the run.
+def matching_parts(pattern: str, choices: Iterable[str], scene: Iterable[str], name: str) -> list[str]:
+    """List the outermost calls and iterations that a pattern matches, in the order of the run.
 
-    A primitive of the scene stands for the call that emits it, as for `chosen`.
+    A primitive of the scene stands for the call that emits it, as for `held_addresses`.
 
     Raises
     ------
     InputError
-        It matches none; with those that are nearest.
+        The pattern matches no part; the message names the nearest parts.
     """
     emitted = {place: _above(place) for place in scene}
     calls = list(dict.fromkeys(call for address in [*choices, *emitted] for call in _calls(address)))
-    found = {call for call in calls if _engine.matches(pattern, call)}
-    found |= {call for place, call in emitted.items() if _engine.matches(pattern, place) and call}
-    if not found:
-        near = ", ".join(f"`{one}`" for one in _engine.nearest(pattern, sorted(calls)))
+    matches = {call for call in calls if _engine.matches(pattern, call)}
+    matches |= {call for place, call in emitted.items() if _engine.matches(pattern, place) and call}
+    if not matches:
+        near = ", ".join(f"`{call}`" for call in _engine.nearest(pattern, sorted(calls)))
         raise InputError(
             "no-address", pattern=pattern, name=name, nearest=near or "none: the run has no part"
         )
-    return [one for one in calls if one in found and not found & set(_calls(one))]
+    return [call for call in calls if call in matches and not matches & set(_calls(call))]
 
 
 def _above(address: str) -> str:
-    """The call in which something with this address is; empty for the model itself."""
+    """The call around an address; empty for the model itself."""
     return address.rpartition("/")[0]
 
 
 def _calls(address: str) -> Iterator[str]:
-    """The calls and iterations that an address is in, the model itself left out."""
+    """The calls and iterations around an address, without the model itself."""
     while address := _above(address):
         yield address
 
@@ -125,7 +128,7 @@ def _is_below(address: str, part: str) -> bool:
 
 
 def deciding(part: str) -> Iterator[str]:
-    """The calls and iterations whose own choices decide that a part exists."""
+    """List the calls and iterations whose own choices decide whether a part exists."""
     for call in [part, *_calls(part)] if part else []:
         above, _, component = call.rpartition("/")
         yield above

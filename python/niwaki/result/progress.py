@@ -1,4 +1,4 @@
-"""How far a search is: what the user's `progress` function receives, and the function that the engine calls."""
+"""Progress of a search: the argument of the user's `progress` function, and the callback of the engine."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from niwaki.result.search_like import SearchLike
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a search is; given to `progress` now and then.
+    """Progress of a search; the argument of `progress`, at intervals.
 
     Attributes
     ----------
     run, runs : int
-        Which of how many runs, from 0.
+        The number of the run, from 0, and of all runs.
     done : int
-        Barriers of a population, then rounds of `improve`; runs of the other methods.
+        The number of barriers of a population, then of rounds of `improve`; of runs for other methods.
     ended : int
-        Particles that have ended.
+        The number of particles that have ended.
     best : float
         Best log score of the population so far, nats.
     sample : Sample or None
-        The best so far of `improve` after its first population; `sample.scene` is its scene.
+        The best sample so far of `improve` after its first population; `sample.scene` is its scene.
     """
 
     run: int
@@ -37,12 +37,12 @@ class Progress:
 
 
 Watch = Callable[[Progress], None]
-#: What the engine calls: done, ended, best log score, best run.
+#: Callback of the engine: done, ended, best log score, best run.
 EngineWatch = Callable[[int, int, float, _engine.Run | None], None]
 
 
 def watcher(progress: Watch | None, search: SearchLike, number: int = 0, runs: int = 1) -> EngineWatch:
-    """The function that the engine calls, around the user's `progress`."""
+    """Wrap the user's `progress` as the callback of the engine."""
 
     def watch(done: int, ended: int, best: float, run: _engine.Run | None) -> None:
         if progress is not None:

@@ -1,4 +1,4 @@
-"""The result of a search: samples, each with its scene, choices and scores, and the numbers of the whole."""
+"""Results of searches: samples, each with its scene, choices and scores, and the statistics of the search."""
 
 from __future__ import annotations
 
@@ -32,31 +32,31 @@ from niwaki.targets.sketches import Score, View
 
 
 class Result(Sequence[Sample]):
-    """The result of a search; a sequence of its samples.
+    """Result of a search; a sequence of its samples.
 
-    The method's statistics are its `info`, and are also attributes of the result itself: after `mh(...)` there are
-    `result.acceptance` and `result.bests`, after `nuts(...)` `result.step_size`.
+    The statistics of the method are in `info`, and are also attributes of the result: `result.acceptance` and
+    `result.bests` after `mh(...)`, `result.step_size` after `nuts(...)`.
 
     Attributes
     ----------
     search : Search
         The search.
     method : Method
-        How it was searched: the method of the search, or that of its polishing.
+        The method of the search, or of its polishing.
     samples : sequence of Sample
-        Of `grow`: one for each run. Of `smc`: the particles. Of chains: those of the first chain first. Else: the runs.
+        Of `grow`: the best of each run. Of `smc`: the particles. Of chains: the states, chain by chain. Else: the runs.
     sizes : list of int
-        How many samples each chain has; all in one where there are no chains.
+        The number of samples of each chain; one number for methods without chains.
     seed : int
-        Of the (first) search.
+        The seed of the (first) search.
     info : Info
-        The method's statistics: see `niwaki.result.info`.
+        The statistics of the method: see `niwaki.result.info`.
     interrupted : bool
-        Whether it was stopped before its end.
+        Whether the search was stopped before its end.
     seconds, cpu_seconds : float
         Wall and processor time of the search alone.
     invalid : tuple of Invalid
-        Runs, proposals and points of trajectories that were invalid, by place: how many, and the call of one of them.
+        Invalid runs, proposals and points of trajectories, by place: their number, and the call of one of them.
     """
 
     def __init__(
@@ -78,11 +78,11 @@ class Result(Sequence[Sample]):
         self.interrupted = interrupted
         self.invalid: tuple[Invalid, ...] = tuple(invalid)
         if seconds is None:
-            seconds = sum(one.seconds for one in samples), sum(one.cpu_seconds for one in samples)
+            seconds = sum(sample.seconds for sample in samples), sum(sample.cpu_seconds for sample in samples)
         self.seconds, self.cpu_seconds = seconds
 
     def __getattr__(self, name: str) -> Any:
-        """An attribute of `info`, where the result itself has none of this name."""
+        """Read an attribute of `info`."""
         if name == "info" or name.startswith("_"):
             raise AttributeError(name)
         try:
@@ -91,7 +91,7 @@ class Result(Sequence[Sample]):
             raise AttributeError(f"a result of `{self.method.NAME}` has no `{name}`") from error
 
     def to_its_end(self) -> Result:
-        """The result itself, of a search that was not interrupted; for code that goes on after it.
+        """Return the result itself if the search was not interrupted; for code that needs a complete search.
 
         Raises
         ------
@@ -104,19 +104,19 @@ class Result(Sequence[Sample]):
 
     @property
     def model(self) -> Model[..., Any]:
-        """What was run."""
+        """The model of the search."""
         return self.search.model
 
     @property
     def score(self) -> Score:
-        """What its scene should be like."""
+        """The sketches that score its scene."""
         return self.search.score
 
     @property
     def log_evidence(self) -> float | None:
-        """Log of the model's total probability, nats, where the method gives it.
+        """Log of the model's total probability, nats; None for methods without an estimate.
 
-        Invalid runs are among the runs that it is the mean of, as zeros: `invalid` says how many there were.
+        The evidence is a mean over runs, in which invalid runs count as zeros; `invalid` has their number.
         """
         return self.info.log_evidence
 
@@ -128,7 +128,7 @@ class Result(Sequence[Sample]):
 
     @property
     def by_chain(self) -> list[Sequence[Sample]]:
-        """The samples of each chain; all in one where there are no chains."""
+        """The samples of each chain; one sequence for methods without chains."""
         ends = [0, *accumulate(self.sizes)]
         return [self.samples[a:b] for a, b in pairwise(ends)]
 
@@ -136,18 +136,18 @@ class Result(Sequence[Sample]):
     def draws(self) -> dict[str, NDArray[Any]]:
         """Values of choices by address, (chains, draws) or (chains, draws, n) for lists of n numbers.
 
-        Of the choices that every sample has, with values that are numbers (of chains that follow a gradient, of the
-        continuous choices); of as many samples as the shortest chain has. Where samples have weights, they are not
-        among these: see `weights`.
+        The choices are those that every sample has, with values that are numbers (for chains that follow a gradient,
+        the continuous choices). The number of draws is that of the shortest chain. Weights are not among the draws:
+        see `weights`.
         """
-        kept = self.info._draws()
-        if kept is not None:
-            return kept
+        draws = self.info._draws()
+        if draws is not None:
+            return draws
         least = min(self.sizes, default=0)
         return diagnostics.together([_columns(chain[:least]) for chain in self.by_chain])
 
     def to_arviz(self) -> Any:
-        """The draws for ArviZ, with the samples' statistics: a `DataTree` with 1.x, an `InferenceData` before.
+        """Convert the draws for ArviZ, with the samples' statistics: a `DataTree` (1.x) or an `InferenceData` (before).
 
         Raises
         ------
@@ -161,23 +161,23 @@ class Result(Sequence[Sample]):
         return diagnostics.to_arviz(self.draws, numbers)
 
     def summary(self) -> diagnostics.Summaries:
-        """Mean, deviation, standard error, effective sizes and R-hat of every number of the draws.
+        """Summarise the draws: mean, deviation, standard error, effective sizes and R-hat of every number.
 
-        After `hmc` and `nuts` also of the log density over coordinates, and what broke off.
+        After `hmc` and `nuts` the summary also has the log density over coordinates, and the divergences.
 
         Raises
         ------
         InputError
-            The samples do not weigh the same.
+            The samples have different weights.
         """
-        found = self.info._summary()
-        if found is not None:
-            return found
+        summary = self.info._summary()
+        if summary is not None:
+            return summary
         if len(set(self._log_weights())) > 1:
             raise bad(
                 "method",
                 self.method,
-                "samples that weigh the same",
+                "samples of equal weight",
                 "`mh(...)`, or weigh `draws` by `weights`",
             )
         return diagnostics.summarise(self.draws)
@@ -185,7 +185,7 @@ class Result(Sequence[Sample]):
     def _numbers(self, name: str) -> NDArray[np.float64]:
         """A number of each sample, (chains, samples of the shortest chain)."""
         least = min(self.sizes, default=0)
-        rows = [[getattr(one, name) for one in chain[:least]] for chain in self.by_chain]
+        rows = [[getattr(sample, name) for sample in chain[:least]] for chain in self.by_chain]
         return np.array(rows, dtype=np.float64)
 
     @property
@@ -198,7 +198,7 @@ class Result(Sequence[Sample]):
 
     @property
     def best(self) -> Sample:
-        """The sample of the best log score; runs that ended come first. Of `mh`, any state that a chain reached."""
+        """The sample with the best log score; runs that ended come first. For `mh`, any state that a chain reached."""
         pool: Sequence[Sample] = self.info._pool(self.samples)
         if not len(pool):
             raise InputError("no-runs", detail=repr(self))
@@ -206,14 +206,14 @@ class Result(Sequence[Sample]):
         return max(possible or pool, key=lambda sample: sample.log_score)
 
     def more(self, steps: int) -> Result:
-        """Go on with the chains of `mh` from where they are: the result itself, with more in it.
+        """Continue the chains of `mh` from their present states; the samples are added to this result.
 
-        A checkpoint of the search goes on with them.
+        A checkpoint of the search is written, too.
 
         Parameters
         ----------
         steps
-            Proposals in each chain.
+            The number of further proposals in each chain.
         """
         at_least_one("steps", steps)
         self.info._go_on(self, steps)
@@ -227,24 +227,24 @@ class Result(Sequence[Sample]):
         threads: int | None = None,
         progress: Watch | None = None,
     ) -> Result:
-        """Go on from the best sample by Markov chains; their `best` is at least as good.
+        """Continue from the best sample by Markov chains; their `best` is at least as good.
 
         Parameters
         ----------
         method
-            `niwaki.mh(...)`: how many proposals, and by which kernel.
+            `niwaki.mh(...)`: the number of proposals, and the kernel.
         seed, threads, progress
             As for `niwaki.run`; the seed of this search when left out.
 
         Returns
         -------
         Result
-            That of the chains, whose seconds are those of this search and their own.
+            The result of the chains. Its seconds are those of this search and of the chains together.
         """
         return self.search.polished(self, method, seed=seed, threads=threads, progress=progress)
 
     def held(self, *patterns: str) -> dict[str, Any]:
-        """Choices of the best sample with their values, to hold them in another search; see `Sample.held`."""
+        """List choices of the best sample with their values, to hold them in another search; see `Sample.held`."""
         return self.best.held(*patterns)
 
     def regrow(
@@ -261,12 +261,12 @@ class Result(Sequence[Sample]):
 
     @cached_property
     def unique_models(self) -> int:
-        """Of how many samples no other shares more than half of its choices, as (address, value) pairs."""
+        """The number of samples of which no two share more than half of their choices, as (address, value) pairs."""
         return _engine.unique_models([sample._run for sample in self.samples])
 
     @property
     def value(self) -> Any:
-        """What the best sample returned."""
+        """The value that the best sample returned."""
         return self.best.value
 
     @property
@@ -276,9 +276,9 @@ class Result(Sequence[Sample]):
 
     @property
     def weights(self) -> NDArray[np.float64]:
-        """The samples' weights, (n,), summing to one; an error where every sample is impossible.
+        """The samples' weights, (n,), with the sum one; an error if every sample is impossible.
 
-        Particles of several runs have none: a weight compares a particle with those of its own population only.
+        Particles of several runs have no weights: a weight compares a particle only with its own population.
         """
         if self.search.runs > 1 and self.search.method.NAME == "smc":
             raise InputError("weights-of-runs", runs=self.search.runs)
@@ -296,20 +296,20 @@ class Result(Sequence[Sample]):
 
     def _log_weights(self) -> NDArray[np.float64]:
         """Logs of the weights, (n,)."""
-        kept = self.info._log_weights()
-        if kept is not None:
-            return kept
+        logs = self.info._log_weights()
+        if logs is not None:
+            return logs
         return np.array([sample.log_weight for sample in self.samples], dtype=np.float64)
 
     def resampled(self, n: int, seed: int | None = None) -> list[Sample]:
-        """Samples of equal weight, drawn by their weights: systematic resampling.
+        """Draw samples by their weights, by systematic resampling; the drawn samples have equal weights.
 
         Parameters
         ----------
         n
-            How many; a sample of a large weight is there several times.
+            The number of draws; a sample of a large weight is drawn several times.
         seed
-            Decides which; that of the search when left out.
+            The seed of the draws; the seed of the search when left out.
         """
         at_least_one("n", n)
         first = np.random.default_rng(self.seed if seed is None else seed).random()
@@ -320,10 +320,10 @@ class Result(Sequence[Sample]):
         return [self.samples[int(place)] for place in np.minimum(places, len(ends) - 1)]
 
     def distribution(self) -> dict[Any, float]:
-        """The probability of each value: exact for enumeration, weighted shares of the samples else.
+        """The probability of each value: exact for enumeration, else weighted shares of the samples.
 
-        Values that cannot be keys of a dict are replaced by their `repr`, and so are values that Python holds for
-        equal and that are not the same: `True` and `1`, `0.0` and `-0.0`.
+        The `repr` replaces values that cannot be keys of a dict, and different values that Python holds for equal:
+        `True` and `1`, `0.0` and `-0.0`.
         """
         if isinstance(self.info, EnumerationInfo):
             total = self.log_evidence or 0.0
@@ -364,7 +364,7 @@ class Result(Sequence[Sample]):
         if self.score.window is not None:
             settings = {"window": self.score.window, **settings}
         elif self.score.target is None and self.score.views:
-            settings = {**_seen(self.score.views[0]), **settings}
+            settings = {**_settings_of_view(self.score.views[0]), **settings}
         return draw.sheet.sheet(scenes, captions, self.score.target, **settings)
 
     def _repr_png_(self) -> bytes | None:
@@ -421,24 +421,24 @@ class Result(Sequence[Sample]):
 def _columns(chain: Sequence[Sample]) -> dict[str, NDArray[Any]]:
     """The choices that all of these samples have, where their values are numbers: (draws,) or (draws, n)."""
     rows = [sample.choices for sample in chain]
-    found: dict[str, NDArray[Any]] = {}
+    columns: dict[str, NDArray[Any]] = {}
     for address in rows[0] if rows else ():
         if all(address in row for row in rows):
             with suppress(ValueError, TypeError):
                 array = np.array([row[address] for row in rows])
                 if array.dtype.kind in "biuf":
-                    found[address] = array
-    return found
+                    columns[address] = array
+    return columns
 
 
 def caption(sample: Sample, number: int) -> str:
-    """A line for a contact sheet; `number` is that of the sample in its result, from 1."""
+    """Write a line for a contact sheet; `number` is the place of the sample in its result, from 1."""
     fits = f"   {sample.fit}" if sample.fit is not None else ""
     return f"#{number}{fits}   seed {sample.seed}   {sample.log_score:.2f}"
 
 
-def _seen(view: View) -> dict[str, Any]:
-    """Settings of a picture that is seen as an image to match is."""
+def _settings_of_view(view: View) -> dict[str, Any]:
+    """Settings of a picture with the camera and the proportions of an image to match."""
     rows, columns = view.image.shape
     camera = {} if view.camera is None else {"camera": targets.views.eye(view.camera)}
     return {**camera, "size": (max(1, round(360 * columns / rows)), 360)}

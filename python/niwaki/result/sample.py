@@ -1,4 +1,4 @@
-"""One run of a model: its scores, choices, scene and value."""
+"""Samples: single runs of a model, each with its scores, choices, scene and value."""
 
 from __future__ import annotations
 
@@ -25,32 +25,32 @@ if TYPE_CHECKING:
 
 
 class Sample:
-    """One run of a model.
+    """Single run of a model.
 
     Scores are natural logarithms (nats) of power 1.
 
     Attributes
     ----------
     log_score : float
-        Factors, observations and sketches.
+        The log score: factors, observations and sketches.
     log_prior : float
         The log density of the choices.
     log_weight : float
-        The weight in its population; 0 where all weigh the same.
+        The log weight in its population; 0 if all samples have the same weight.
     similarity : float or None
-        Share of cells that are equal in the scene and its target, which the score looks at; `fit` is for people.
+        Share of cells that are equal in the scene and its target, for the score; `fit` is for people.
     primitives : int
-        How many primitives the scene has.
+        The number of primitives in the scene.
     has_ended : bool
-        Whether the run went to its end; a search that was stopped may leave others.
+        Whether the run reached its end; a search that was stopped may leave runs that did not.
     cause : str or None
-        What made the run impossible.
+        The cause that made the run impossible.
     search : Search
         The search.
     seed : int or None
-        Of the run of that search.
+        The seed of the run.
     seconds, cpu_seconds : float
-        Wall and processor time of that search.
+        Wall and processor time of the search.
     """
 
     def __init__(
@@ -74,7 +74,7 @@ class Sample:
 
     @classmethod
     def of_trace(cls, trace: _engine.Trace, search: SearchLike, *rest: Any) -> Sample:
-        """A run whose choices were given."""
+        """Make a sample of a replayed run."""
         sample = cls(trace.run, search, *rest)
         sample.__dict__["_trace"] = trace
         return sample
@@ -84,7 +84,7 @@ class Sample:
 
     @cached_property
     def _trace(self) -> _engine.Trace:
-        """The run once more, with names."""
+        """The run, replayed to get its addresses."""
         with translated("model"):
             return self.search.task.trace(self._run)
 
@@ -95,12 +95,12 @@ class Sample:
 
     @property
     def log_joint(self) -> float:
-        """Choices and score together, nats."""
+        """The sum of `log_prior` and `log_score`, nats."""
         return self.log_prior + self.log_score
 
     @property
     def value(self) -> Any:
-        """What the model returned; None for a run that did not end."""
+        """The value that the model returned; None for a run that did not end."""
         try:
             return (self._trace.run if self._run.is_bare else self._run).value
         except TypeError as error:
@@ -108,41 +108,41 @@ class Sample:
 
     @property
     def target(self) -> Target | None:
-        """What the scene should fill."""
+        """The target that the scene should fill."""
         return self.search.score.target
 
     @property
     def choices(self) -> dict[str, Any]:
-        """Every choice by its readable address; give them to `run(choices=...)` to get the same run."""
+        """The choices by readable address; `run(choices=...)` repeats the run with them."""
         return {choice.path: choice.value for choice in self._trace.choices}
 
     def held(self, *patterns: str) -> dict[str, Any]:
-        """Choices with their values, to hold them in another search: its `hold`.
+        """List choices with their values, for the `hold` of another search.
 
         Parameters
         ----------
         patterns
-            Patterns of addresses, as for `kernels.on`. One that matches a choice takes that choice. One that matches a
-            part (a call, an iteration of a loop, or a primitive of the scene, which stands for the call that emits it)
-            takes all choices at and below it, and those that decide that it exists: of the calls around it, and of the
-            earlier iterations of its loops. All choices, where there is no pattern.
+            Patterns of addresses, as for `kernels.on`; all choices without a pattern. A pattern that matches a choice
+            takes that choice. A pattern that matches a part takes all choices at and below the part, and the choices
+            that decide whether the part exists: those of the calls around it, and of the earlier iterations of its
+            loops. A part is a call, an iteration of a loop, or a primitive, which stands for the call that emits it.
 
         Raises
         ------
         InputError
-            A pattern matches nothing; with the addresses that are nearest.
+            A pattern matches nothing; the message names the nearest addresses.
         """
         return dict(self._held(patterns)) if patterns else self._free
 
     def _held(self, hold: parts.Hold) -> Mapping[str, Any]:
-        """What is held, by address, with the values of this run for patterns."""
+        """The values of held choices by address; patterns take the values of this run."""
         scene = [address for address, _ in self._trace.parts]
         return parts.held(hold, self._free, scene, self.search.model.name)
 
     @property
     def _free(self) -> dict[str, Any]:
-        """The choices that could have another value: what has one value only is computed, not chosen."""
-        return {one.path: one.value for one in self._trace.choices if one.family != "delta"}
+        """The choices that could have another value."""
+        return {choice.path: choice.value for choice in self._trace.choices if choice.family != "delta"}
 
     def regrow(
         self,
@@ -153,25 +153,25 @@ class Sample:
         seed: int | None = None,
         threads: int | None = None,
     ) -> Result:
-        """Grow one part of this run again by particles, in place; everything outside of it stays as it is.
+        """Grow one part of this run again by particles; everything outside of the part stays as it is.
 
         Parameters
         ----------
         part
             A pattern that matches the address of one call or iteration: all choices at and below it are drawn again.
         particles
-            How many.
+            The number of particles.
         power
-            The power of the score; that of the search when left out, 1 where it has none.
+            The power of the score; the power of the search when left out, or 1 for methods without a power.
         seed
-            Decides every random choice; that of this run when left out.
+            The seed of all random choices; the seed of this run when left out.
         threads
-            How many to use; all of the machine's when left out.
+            The number of threads; all of the machine when left out.
 
         Returns
         -------
         Result
-            The particles that are possible: whole runs, weighed by the law of the part given the rest.
+            The possible particles: whole runs, with weights for the distribution of the part given the rest.
 
         Raises
         ------
@@ -191,32 +191,32 @@ class Sample:
         answers: int = 4,
         structure: bool = True,
     ) -> Drag:
-        """Drag a part of the scene to a point: the choices that its place depends on are moved by its derivatives.
+        """Drag a part of the scene to a point, by moving the choices on which its place depends, along derivatives.
 
         Parameters
         ----------
         part
-            A pattern that matches the address of a primitive, or of a call or iteration that emits some.
+            A pattern that matches the address of a primitive, or of a call or iteration that emits primitives.
         to
-            Where it should be, scene units; two numbers for a drawing.
+            The goal, scene units; two numbers for a drawing.
         grab
-            The point that should be there, fixed to the shape of the part that it is nearest to; left out, the middle
-            of the part's shape that is nearest to `to`.
+            The point that should reach the goal, fixed to the nearest shape of the part. The default is the middle of
+            the shape of the part that is nearest to `to`.
         along
-            A direction in which distances do not count, such as the one in which a camera looks.
+            A direction in which distances do not count, such as the direction of view of a camera.
         hold
-            What stays as it is: as in a search, values of choices by address, which are those of this run; or patterns
-            of choices and parts, as for `held`. What the search holds stays, too.
+            The choices that stay: values of choices by address, as in this run, or patterns of choices and parts, as
+            for `held`. Choices that the search holds stay, too.
         answers
-            How many at most: they differ in the choices that may change.
+            The most answers; they differ in the choices that may change.
         structure
-            Whether discrete choices that decide the part are tried where real choices do not take it there. What a
-            run chooses that the run before did not is drawn from the seed of the search.
+            Whether to try discrete choices that decide the part, if real choices do not take it to the goal. Choices
+            that are new in a run are drawn from the seed of the search.
 
         Returns
         -------
         Drag
-            The answers, the least change first; or why there is none, with the nearest that was found.
+            The answers, the least change first; or the reason why there is none, with the nearest state.
 
         Raises
         ------
@@ -234,7 +234,7 @@ class Sample:
 
     @property
     def order(self) -> list[tuple[int, int]]:
-        """Order choices: the hash of the future that ran, and its place among those that could."""
+        """Choices of the order: the hash of the future that ran, and its place among the futures that could run."""
         return self._run.order()
 
     @property
@@ -254,7 +254,7 @@ class Sample:
 
     @cached_property
     def fit(self) -> Fit | None:
-        """How much of the target the scene covers, and how much of the scene is outside; None without a target."""
+        """The share of the target that the scene covers, and of the scene outside of it; None without a target."""
         return fit(self.search.score, self.scene)
 
     def export(
@@ -289,15 +289,15 @@ class Sample:
         return self.scene.animate(path, self._ghost(target), parts=self.parts, **self._shown(settings))
 
     def picture(self, target: Target | None | bool = True, **settings: Any) -> Any:
-        """Draw the scene, with the target as a ghost; `target=None` leaves that out."""
+        """Draw the scene, with the target as a ghost; `target=None` leaves the ghost out."""
         return self.scene.picture(self._ghost(target), **self._shown(settings))
 
     def save(self, path: str | PathLike[str], target: Target | None | bool = True, **settings: Any) -> Path:
-        """Draw the scene into an image file, with the target as a ghost; `target=None` leaves that out."""
+        """Draw the scene into an image file, with the target as a ghost; `target=None` leaves the ghost out."""
         return self.scene.save(path, self._ghost(target), **self._shown(settings))
 
     def _shown(self, settings: dict[str, Any]) -> dict[str, Any]:
-        """Settings of a picture: of a drawing the page is shown that the score looks at."""
+        """Settings of a picture; of a drawing, with the page of the score."""
         window = self.search.score.window
         return settings if window is None else {"window": window, **settings}
 
@@ -308,7 +308,7 @@ class Sample:
 
     @property
     def numbers(self) -> dict[str, Any]:
-        """What is worth knowing about the run, by name; None for what it does not have."""
+        """The most important numbers of the run, by name; None for missing numbers."""
         return {
             "log score": self.log_score,
             "log prior": self.log_prior,
@@ -336,7 +336,7 @@ class Sample:
 
 
 def _restored(search: SearchLike, data: str, *rest: Any) -> Sample:
-    """The sample of its pickled data; the returned value comes from another run, when it is read."""
+    """Read a sample from pickled data; a replay gives the returned value when it is read."""
     return Sample(search.task.run_of_data(data), search, *rest)
 
 
@@ -346,7 +346,7 @@ def log_density(sample: Sample) -> LogDensity:
     Parameters
     ----------
     sample : Sample
-        Of any result: `nw.run(model, seed=1).best`, for example.
+        A sample of any result, such as `nw.run(model, seed=1).best`.
 
     Raises
     ------

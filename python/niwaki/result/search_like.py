@@ -1,6 +1,6 @@
-"""What a result knows of the search that it came from: its data, and what can be asked of it.
+"""Interface of a search for its results: its settings, and its methods that continue from a result.
 
-The class is `niwaki.Search`, which stands above: a search makes results, and a result goes on by asking its search.
+`niwaki.Search` implements it. Results use the interface, because the module of `Search` imports results.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ if TYPE_CHECKING:
 
 
 class SearchLike(Protocol):
-    """A search: see `niwaki.Search`, of which this is what results and runners need."""
+    """Search, as results and executions use it: see `niwaki.Search`."""
 
     __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
 
     @property
     def model(self) -> Model[..., Any]:
-        """What is run."""
+        """The model."""
 
     @property
     def args(self) -> tuple[Any, ...]:
@@ -37,7 +37,7 @@ class SearchLike(Protocol):
 
     @property
     def score(self) -> Score:
-        """What its scene should be like."""
+        """The sketches that score its scene."""
 
     @property
     def method(self) -> Method:
@@ -45,7 +45,7 @@ class SearchLike(Protocol):
 
     @property
     def seed(self) -> int:
-        """What decides every random choice."""
+        """The seed of all random choices."""
 
     @property
     def choices(self) -> Mapping[str, Any] | None:
@@ -57,7 +57,7 @@ class SearchLike(Protocol):
 
     @property
     def runs(self) -> int:
-        """How many runs, with seeds that follow one another."""
+        """The number of runs, with seeds that follow one another."""
 
     @property
     def keep(self) -> str:
@@ -81,7 +81,7 @@ class SearchLike(Protocol):
 
     @property
     def hash(self) -> str:
-        """SHA-256 of what decides the result."""
+        """SHA-256 of the settings that decide the result."""
 
     @property
     def key(self) -> str:
@@ -89,7 +89,7 @@ class SearchLike(Protocol):
 
     @property
     def about(self) -> dict[str, Any]:
-        """What decides the result, by name."""
+        """The settings that decide the result, by name."""
 
     @property
     def host_modules(self) -> tuple[str, ...]:
@@ -102,7 +102,7 @@ class SearchLike(Protocol):
         """The search as JSON."""
 
     def with_seed(self, seed: int) -> SearchLike:
-        """The same search with another seed."""
+        """Copy the search with another seed."""
 
     def run(
         self,
@@ -111,7 +111,7 @@ class SearchLike(Protocol):
         progress: Watch | None = None,
         checkpoint: str | PathLike[str] | None = None,
     ) -> Result:
-        """Carry it out."""
+        """Run the search."""
 
     def polished(
         self,
@@ -122,7 +122,7 @@ class SearchLike(Protocol):
         threads: int | None = None,
         progress: Watch | None = None,
     ) -> Result:
-        """Go on from the best sample of a result."""
+        """Continue from the best sample of a result."""
 
     def regrown(
         self,

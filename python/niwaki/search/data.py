@@ -1,8 +1,8 @@
-"""Values as plain data, and back: the JSON form of a search, which another process can read.
+"""Values as plain data, and back, for the JSON of a search, which another process can read.
 
-Numbers, texts, truth values and None are written as they are; everything else is a dict with one key that names its
-kind. Reading imports no module and runs no stored program: a host function is looked up only in modules that the caller
-declares trusted.
+Numbers, texts, truth values and None are written as they are; any other value is a dict with one key that names its
+kind. Reading imports no module and runs no stored program. A host function is looked up only in modules that the caller
+trusts.
 """
 
 from __future__ import annotations
@@ -34,10 +34,10 @@ from niwaki.targets.target import Receiver, Target
 from niwaki.words import distributions
 from niwaki.words.vectors import Rotation, Vec
 
-#: Bytes of the largest array that is read.
+#: The most bytes of an array.
 LARGEST_ARRAY = 1 << 30
 
-#: What reading something of the wrong kind may raise.
+#: Errors that malformed data may raise in a reader.
 MALFORMED = (
     KeyError,
     TypeError,
@@ -63,12 +63,12 @@ def mesh_hash(mesh: Target | Receiver) -> str:
 
 @dataclass(frozen=True)
 class Writer:
-    """Writes values.
+    """Writer of values.
 
     Attributes
     ----------
     files : str
-        How a mesh that was read from a file is written: "named" (the file and the hash of what was read), "inside" (the
+        The form of a mesh that was read from a file: "named" (the file and the hash of the mesh), "inside" (the
         arrays), or "hashed" (the hash alone, for the hash of a search).
     """
 
@@ -98,7 +98,7 @@ class Writer:
         if isinstance(value, list):
             return {"list": self.each(value)}
         if isinstance(value, dict):
-            return {"dict": [[self(key), self(one)] for key, one in value.items()]}
+            return {"dict": [[self(key), self(entry)] for key, entry in value.items()]}
         if isinstance(value, range):
             return {"range": [value.start, value.stop, value.step]}
         if callable(value):
@@ -151,15 +151,15 @@ def record_class(kind: type) -> dict[str, Any]:
 
 
 def of_record_class(data: Mapping[str, Any]) -> type:
-    """Make a class of records with those fields.
+    """Make a class of records from its data.
 
     Raises
     ------
     Unfit
-        A name is none that a class or a field can have.
+        A name cannot be the name of a class or a field.
     """
     for name in (data["name"], *data["fields"]):
-        # Both kinds of records are made through source text, so that a name must be one.
+        # Both kinds of records are made from source text, so a name must be an identifier.
         if not isinstance(name, str) or not name.isidentifier() or name.startswith("__"):
             raise Unfit("$.fields", "names of a class and its fields", shown(name))
     fields = [(str(name), Any) for name in data["fields"]]
@@ -176,7 +176,7 @@ def host_reference(function: Any) -> dict[str, str]:
 
 
 def source_hash(function: Any) -> str:
-    """SHA-256 of a function: of its syntax tree without places and comments, or of its name if it has no source."""
+    """SHA-256 of a function: of its syntax tree without places and comments, or of its name without a source."""
     try:
         return text_hash(ast.dump(ast.parse(textwrap.dedent(inspect.getsource(function)))))
     except (OSError, TypeError, SyntaxError, RecursionError, MemoryError):
@@ -185,9 +185,9 @@ def source_hash(function: Any) -> str:
 
 @dataclass(frozen=True)
 class Reader:
-    """Reads values.
+    """Reader of values.
 
-    What is no value is an `Unfit`, with its place in the data that were given.
+    Malformed data raise `Unfit`, with their place.
 
     Attributes
     ----------
@@ -217,51 +217,51 @@ class Reader:
             raise Unfit("$", f"a value of the kind `{kind}`", f"{shown(data[kind])} ({error})") from error
 
     def each(self, data: Any, step: str = "") -> list[Any]:
-        """Read several values; `step` leads to their list."""
+        """Read several values; `step` is the path to their list."""
         if not isinstance(data, list):
             raise Unfit(f"${step}", "a list", shown(data))
-        return [self.part(one, f"{step}[{number}]") for number, one in enumerate(data)]
+        return [self.part(entry, f"{step}[{number}]") for number, entry in enumerate(data)]
 
     def part(self, data: Any, step: str) -> Any:
-        """Read a value inside another; `step` leads to it."""
+        """Read a value inside another; `step` is its path."""
         with inside(step):
             return self(data)
 
     def table(self, data: Mapping[str, Any], step: str = "") -> dict[str, Any]:
-        """Read values by name; `step` leads to them."""
-        return {name: self.part(one, f"{step}.{name}") for name, one in data.items()}
+        """Read values by name; `step` is their path."""
+        return {name: self.part(entry, f"{step}.{name}") for name, entry in data.items()}
 
     def record(self, data: Mapping[str, Any]) -> Any:
-        """Read a record; its class is created for it."""
+        """Read a record of a new class."""
         constructor = of_record_class(data["record"])
         return constructor(**self.table(data["fields"], ".fields"))
 
     def mesh(self, kind: type[Target] | type[Receiver], data: Mapping[str, Any]) -> Any:
-        """Read a mesh: of its file, or of its arrays.
+        """Read a mesh from its file, or from its arrays.
 
         Raises
         ------
         InputError
-            The file is missing, or it holds another mesh than when it was written down.
+            The file is missing, or its mesh has changed.
         """
-        wanted = data[kind.__name__.lower()]
+        stored_hash = data[kind.__name__.lower()]
         if "file" in data:
             name = data["file"]
-            found = kind.find(name)
-            if mesh_hash(found) != wanted:
+            mesh = kind.find(name)
+            if mesh_hash(mesh) != stored_hash:
                 raise InputError("changed-mesh", path=name)
-            return found
+            return mesh
         return kind(
             self.part(data["vertices"], ".vertices"), self.part(data["faces"], ".faces"), str(data["name"])
         )
 
     def host(self, data: Mapping[str, Any]) -> Any:
-        """Find a host function again.
+        """Find a host function by its reference.
 
         Raises
         ------
         InputError
-            Its module is not trusted, or the function is not a host function, or another than it was.
+            The module is not trusted, or the function is no host function, or has changed.
         """
         reference = data["host"]
         module, name = reference["module"], reference["name"]
@@ -269,12 +269,15 @@ class Reader:
             reason = f"it calls the Python function `{module}.{name}`, and `{module}` is not among the trusted modules"
             raise InputError("untrusted-function", name=f"{module}.{name}", reason=reason)
         for place in modules(module) or [import_module(module)]:
-            found: Any = place
+            function: Any = place
             for part in name.split("."):
-                found = getattr(found, part, None)
-            if isinstance(found, Host) and source_hash(inspect.unwrap(found.function)) == reference["sha256"]:
-                return found
-        reason = "it is no host function there, or another than it was"
+                function = getattr(function, part, None)
+            if (
+                isinstance(function, Host)
+                and source_hash(inspect.unwrap(function.function)) == reference["sha256"]
+            ):
+                return function
+        reason = "it is no host function there, or it has changed"
         raise InputError("untrusted-function", name=f"{module}.{name}", reason=reason)
 
 
@@ -283,9 +286,9 @@ def _array(reader: Reader, data: Mapping[str, Any]) -> Any:
     if dtype.kind not in NUMERIC or dtype.subdtype is not None:
         raise Unfit("$.array", "a type of numbers", shown(data["array"]))
     size = dtype.itemsize * math.prod(shape)
-    if not all(isinstance(one, int) and one >= 0 for one in shape) or size > LARGEST_ARRAY:
+    if not all(isinstance(length, int) and length >= 0 for length in shape) or size > LARGEST_ARRAY:
         raise Unfit("$.shape", f"a shape of at most {LARGEST_ARRAY >> 20} MiB", shown(shape))
-    # Not one byte more than the shape has is decompressed, whatever a text of few bytes would become.
+    # At most one byte more than the shape needs is decompressed, so a short text cannot fill the memory.
     raw = zlib.decompressobj().decompress(base64.b85decode(data["bytes"]), size + 1)
     if len(raw) != size:
         raise Unfit("$.bytes", f"{size} bytes", "more" if len(raw) > size else f"{len(raw)}")
@@ -311,8 +314,8 @@ _READERS: dict[str, Callable[[Reader, Any], Any]] = {
     "tuple": lambda reader, data: tuple(reader.each(data["tuple"], ".tuple")),
     "list": lambda reader, data: reader.each(data["list"], ".list"),
     "dict": lambda reader, data: {
-        reader.part(key, f".dict[{n}][0]"): reader.part(one, f".dict[{n}][1]")
-        for n, (key, one) in enumerate(data["dict"])
+        reader.part(key, f".dict[{n}][0]"): reader.part(entry, f".dict[{n}][1]")
+        for n, (key, entry) in enumerate(data["dict"])
     },
     "range": lambda reader, data: range(*_numbers(data, "range", tuple[int, int, int])),
     "vec": lambda reader, data: Vec(tuple(_numbers(data, "vec", list[float]))),
@@ -329,7 +332,7 @@ _READERS: dict[str, Callable[[Reader, Any], Any]] = {
 
 
 def model_data(model: Model[..., Any], write: Writer) -> dict[str, Any]:
-    """Write a model: its core form, and its constants."""
+    """Write the core form and the constants of a model."""
     core = model.core()
     return {
         "name": model.name,

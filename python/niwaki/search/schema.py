@@ -1,4 +1,4 @@
-"""What the JSON of a search looks like; values in it are read by `niwaki.search.data`."""
+"""Schema of the JSON of a search; `niwaki.search.data` reads the values in it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Table = dict[str, Any]
 
 
 class RecordClass(Struct):
-    """A class of records."""
+    """Class of records."""
 
     name: str
     fields: list[str]
@@ -19,7 +19,7 @@ class RecordClass(Struct):
 
 
 class ModelData(Struct):
-    """A model: its core form, and its constants."""
+    """Model: its core form, and its constants."""
 
     name: str
     core: str
@@ -30,14 +30,14 @@ class ModelData(Struct):
 
 
 class SketchData(Struct):
-    """A sketch: its name, and what it was given."""
+    """Sketch: its name and its arguments."""
 
     sketch: str
     given: Table
 
 
 class SearchData(Struct):
-    """A search."""
+    """Search: all its settings."""
 
     format: int
     model: ModelData

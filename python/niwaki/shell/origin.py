@@ -165,7 +165,7 @@ class Origin:
             sample, seed = start, (request.seed + number) % 2**64
             for pattern in self.reroll:
                 scene = [part.address for part in sample.parts]
-                for part in parts.matching(pattern, sample.choices, scene, request.model.name):
+                for part in parts.matching_parts(pattern, sample.choices, scene, request.model.name):
                     grown = sample.regrow(
                         part, particles or PARTICLES, power=power, seed=seed, threads=threads
                     )

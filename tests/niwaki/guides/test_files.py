@@ -84,7 +84,7 @@ def test_a_search_with_a_guide_as_json(guide: Guide) -> None:
     assert again.hash == search.hash
     assert [sample.choices for sample in again.run()] == [sample.choices for sample in search.run()]
     assert Search(path(), score=score(), method=smc(8), seed=5).hash != search.hash
-    other = smc(8, guide=guide.reported({"other": 1}))
+    other = smc(8, guide=guide.with_report({"other": 1}))
     assert Search(path(), score=score(), method=other, seed=5).hash != search.hash
 
 

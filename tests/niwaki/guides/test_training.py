@@ -122,7 +122,7 @@ def test_ctrl_c_keeps_the_best_so_far(guide: nw.Guide) -> None:
 
 def unreported(guide: nw.Guide) -> bytes:
     """The bytes of a guide without its report."""
-    return guide.reported({}).data
+    return guide.with_report({}).data
 
 
 def test_ctrl_c_drops_the_searches_that_wait() -> None:

@@ -125,10 +125,7 @@ def test_held_choices_stay_to_the_bit_and_are_the_reason_where_all_are_held() ->
         assert found.best.sample.choices["b"] == b
     held = sample.drag("top", (a + b + 1.0, 0.5, deep), hold=["*"])
     assert held.best is None
-    assert (
-        held.reason
-        == "nothing that is free moves `top`: all 3 choices that move it are held (`a`, `b`, `deep`)"
-    )
+    assert held.reason == "no free choice moves `top`: all 3 choices that move it are held (`a`, `b`, `deep`)"
     # Values by address are those of the run, and hold the same.
     expected = sample.drag("top", (a + b + 0.1, 0.5, deep), hold=["b"]).answers
     for hold in ("b", {"b": b}, sample.held("b")):

@@ -157,7 +157,7 @@ def test_weights_of_what_is_impossible_are_an_error() -> None:
 
 
 def test_fewer_results_that_differ_give_a_warning() -> None:
-    with pytest.warns(SearchWarning, match="of 30 results that differ are in 1 population;"):
+    with pytest.warns(SearchWarning, match="of 30 results in 1 population differ;"):
         found = nw.run(COINS, method=nw.smc(particles=50, populations=1, diverse=30), seed=1)
     assert 1 <= len(found) < 30
 

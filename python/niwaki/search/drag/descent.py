@@ -1,4 +1,4 @@
-"""Real choices moved until the point is there, or no step brings it nearer."""
+"""Descents of real choices, until the point is at the goal or no step brings it nearer."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ import numpy as np
 from niwaki import _engine
 from niwaki.search.drag.held import Held, State, Vector
 
-#: A descent ends when what is left is this share of the scene's size.
+#: A descent ends when the distance to the goal is this share of the scene's size.
 DONE = 1e-4
-#: Steps of a descent at most, and the longest first one, in deviations of the priors.
+#: The most steps of a descent, and the longest first step, in deviations of the priors.
 STEPS, REACH = 24, 1.5
-#: Descents that have come no nearer by this share in so many steps end.
+#: A descent ends if it comes no nearer by this share in this number of steps.
 STALLED, PATIENCE = 0.02, 4
-#: So often a descent may enter another branch of the model.
+#: The most other branches of the model that a descent enters.
 BRANCHES = 3
-#: A number stays this share of its range away from an end that is no value.
+#: The distance of a number to an end of its range, as a share of the range.
 MARGIN = 1e-6
 
 
@@ -32,10 +32,10 @@ def descend(
     branches: int = BRANCHES,
     is_near_warm: bool = False,
 ) -> State:
-    """Move these choices until the point is there, or no step brings it nearer.
+    """Move choices until the point is at the goal, or no step brings it nearer.
 
-    Where a step leads into another branch of the model, the descent goes on from the run there. The change is least
-    from the start; `is_near_warm`: from where the descent begins.
+    If a step leads into another branch of the model, the descent continues from the run there. The change from the
+    start is least, or with `is_near_warm` the change from the values `warm`, at which the descent begins.
     """
     free = {choice.address for choice in start.trace.choices if choice.path in names}
     state = replace(start, values=dict(start.values), error=inf)
@@ -71,7 +71,9 @@ def descend(
         except _engine.EngineFault:
             # The run fails there, or makes other choices.
             there = None
-        is_other = there is None or [one[0] for one in there.movables] != [one[0] for one in here.movables]
+        is_other = there is None or [number[0] for number in there.movables] != [
+            number[0] for number in here.movables
+        ]
         if is_other and branches > 0:
             other = _branched(held, goal, replace(state, values={**origin, **values}), names, branches, error)
             if other is not None:
@@ -95,7 +97,7 @@ def descend(
 def _branched(
     held: Held, goal: Vector, state: State, names: set[str], branches: int, error: float
 ) -> State | None:
-    """The descent from a run with other choices, where the part is nearer in it; missing ones are drawn."""
+    """Descend from a run with other choices, if the part is nearer in it; missing choices are drawn."""
     try:
         trace = held.replayed(held.task, state, held.search.seed)
     except _engine.EngineFault:
@@ -110,7 +112,7 @@ def _branched(
 
 
 def bounds(ranges: Vector) -> tuple[Vector, Vector]:
-    """The ends between which values stay, within those of their ranges."""
+    """The ends between which values stay, a little within their ranges."""
     is_between = np.isfinite(ranges[:, 1]) & np.isfinite(ranges[:, 2])
     width = ranges[:, 3].copy()
     width[is_between] = ranges[is_between, 2] - ranges[is_between, 1]
@@ -120,14 +122,14 @@ def bounds(ranges: Vector) -> tuple[Vector, Vector]:
 
 
 def least(rows: Vector, goal: Vector, damping: float, low: Vector, high: Vector) -> Vector:
-    """The z of least `|rows z - goal|^2 + damping' |z|^2` within bounds: those it would cross are set to their ends."""
+    """The z of least `|rows z - goal|^2 + damping' |z|^2` within bounds; crossing numbers are set to the bound."""
     z, is_free = np.zeros(rows.shape[1]), np.ones(rows.shape[1], bool)
     for _ in range(rows.shape[1] + 1):
-        own = rows[:, is_free]
-        square = own @ own.T
+        part = rows[:, is_free]
+        square = part @ part.T
         scale = max(float(np.trace(square)), 1e-300)
         left = goal - rows[:, ~is_free] @ z[~is_free]
-        best = own.T @ np.linalg.solve(square + damping * scale * np.eye(3), left)
+        best = part.T @ np.linalg.solve(square + damping * scale * np.eye(3), left)
         z[is_free] = np.clip(best, low[is_free], high[is_free])
         crossed = is_free.copy()
         crossed[is_free] = (best < low[is_free]) | (best > high[is_free])
@@ -138,5 +140,5 @@ def least(rows: Vector, goal: Vector, damping: float, low: Vector, high: Vector)
 
 
 def wrapped(x: float) -> float:
-    """An angle within half a turn of zero."""
+    """Wrap an angle to half a turn on both sides of zero."""
     return x if -pi <= x <= pi else (x + pi) % tau - pi

@@ -1,4 +1,4 @@
-"""The answers for a point, the least change first."""
+"""Answers of a drag to a point, the least change first."""
 
 from __future__ import annotations
 
@@ -20,29 +20,30 @@ from niwaki.search.drag.reasons import nothing_moves, too_far
 from niwaki.search.drag.source import NEAR, SourceChange, explained
 from niwaki.search.drag.structure import structures
 
-#: Answers are the same if their choices differ by less than this, in deviations of the priors.
+#: Answers are equal if their choices differ by less than this, in deviations of the priors.
 SAME = 0.05
-#: Another structure that does not reach the point is given as the nearest where it leaves this share at most.
+#: Another structure counts as the nearest state only if its distance is at most this share of the others'.
 WORTH = 0.8
-#: Descents from other values where the first ones give no answer, and how far these are, in deviations of the priors.
+#: The number of descents from other values if the first ones give no answer, and the distance of these values, in
+#: deviations of the priors.
 ELSEWHERE, AROUND = 6, 0.5
 
 
 class Dragging(Held):
-    """A part that is held, for one point or for many: see `Sample.drag` for the parameters."""
+    """Drag of a part to one or many points: see `Sample.drag` for the parameters."""
 
-    #: Where the choices were for the last point of a pointer that moves.
+    #: The choices at the last point of a moving pointer.
     _warm: Mapping[int, float] = {}
 
     def source(self, point: Point, most: int = 3) -> list[SourceChange]:
-        """The changes of the model's file that take the part to a point, those that change it least first.
+        """List changes of the model's file that take the part to a point, the least change first.
 
-        There are none for a model without a file of its own, such as those of the gallery.
+        A model without a file of the user, such as those of the gallery, has none.
         """
         return explained(self, point_of("to", point), most)
 
     def to(self, point: Point, *, answers: int = 4, structure: bool = True) -> Drag:
-        """The answers for a point: see `Sample.drag`."""
+        """Drag the part to a point: see `Sample.drag`."""
         goal = point_of("to", point)
         with translated(self.search.model.name):
             return self._to(goal, answers, structure)
@@ -70,34 +71,36 @@ class Dragging(Held):
         there = [(kind, state) for kind, state in found if state.error <= NEAR * self.size]
         if there:
             near = self._scored(*there[0])
-            return Drag([], near, f"the run is impossible with `{self.start.part}` there: {forbidden}")
+            return Drag([], near, f"the run is impossible with `{self.start.part}` at the point: {forbidden}")
         if not found:
             return Drag([], None, nothing_moves(self))
-        # Another structure only where it is nearer by a good deal.
-        kind, state = min(found, key=lambda one: one[1].error / (WORTH if one[0] == "structure" else 1.0))
+        # Another structure must be much nearer.
+        kind, state = min(
+            found, key=lambda entry: entry[1].error / (WORTH if entry[0] == "structure" else 1.0)
+        )
         return Drag([], self._scored(kind, state), too_far(self, goal, state))
 
     def _possible(
         self, found: Sequence[tuple[str, State]], answers: int, forbidden: str = ""
     ) -> tuple[list[Dragged], str]:
-        """The answers among these: there, different, and possible, the least change first; or what forbids one."""
+        """Select different and possible states at the point, the least change first; or the cause against one."""
         answered: list[Dragged] = []
         looked_at: list[dict[str, Any]] = []
         there = [(kind, state) for kind, state in found if state.error <= NEAR * self.size]
-        for kind, state in sorted(there, key=lambda one: self._change(one[1])):
+        for kind, state in sorted(there, key=lambda entry: self._change(entry[1])):
             after = state.choices
             if len(answered) >= answers or any(self._is_same(after, other) for other in looked_at):
                 continue
             looked_at.append(after)
-            one = self._scored(kind, state)
-            if one.sample.cause is None or self.sample.cause is not None:
-                answered.append(one)
+            answer = self._scored(kind, state)
+            if answer.sample.cause is None or self.sample.cause is not None:
+                answered.append(answer)
             else:
-                forbidden = forbidden or one.sample.cause
+                forbidden = forbidden or answer.sample.cause
         return answered, forbidden
 
     def _elsewhere(self, goal: Vector, names: set[str]) -> list[State]:
-        """Descents that begin at other values of the choices, drawn around those of the run: by the search's seed."""
+        """Descend from other values of the choices, drawn around those of the run by the seed of the search."""
         rng = np.random.default_rng(self.search.seed)
         first = self.begun
         assert first is not None
@@ -108,8 +111,8 @@ class Dragging(Held):
             drawn = first.ranges[:, 0] + rng.normal(size=len(moving)) * first.ranges[:, 3] * AROUND
             values = np.clip(drawn, low, high).tolist()
             warm = {
-                one[0]: value
-                for one, value, is_in in zip(first.movables, values, moving, strict=True)
+                number[0]: value
+                for number, value, is_in in zip(first.movables, values, moving, strict=True)
                 if is_in
             }
             # A run with these values may fail, or make other choices.
@@ -118,7 +121,7 @@ class Dragging(Held):
         return found
 
     def move(self, point: Point) -> Moved:
-        """The part with the least change, for a pointer that moves: it goes on from where the last point was."""
+        """Move the part with the least change, for a moving pointer: the descent starts at the last point."""
         goal = point_of("to", point)
         with translated(self.search.model.name):
             return self._move(goal)

@@ -1,4 +1,4 @@
-"""A part that is held by a point of it: the run, the point, what may move, and where the point is."""
+"""Parts that are held by a point: the run, the point, the movable choices, and the place of the point."""
 
 from __future__ import annotations
 
@@ -25,40 +25,40 @@ Point = Sequence[float]
 
 @dataclass(frozen=True)
 class Grip:
-    """A point that is fixed to a shape of a part: a sum of the shape's directions, and an offset that stays."""
+    """Point that is fixed to a shape of a part: a sum of the shape's directions, and a fixed offset."""
 
     shape: int
     shares: tuple[float, float, float]
     offset: Vector
 
     def at(self, frame: Vector) -> Vector:
-        """Where the point is, given the middle and the directions of the shape, (4, 3)."""
+        """The place of the point, for the middle and the directions of the shape, (4, 3)."""
         return np.asarray(frame[0] + np.asarray(self.shares) @ frame[1:] + self.offset)
 
 
 @dataclass
 class State:
-    """A run, and where its choices have been moved to."""
+    """Run with moved choices."""
 
     trace: _engine.Trace
     placer: _engine.Placer
-    #: The address of the part that is held in it.
+    #: The address of the held part in the run.
     part: str
     values: dict[int, float] = field(default_factory=dict)
-    #: What is left to the point, scene units.
+    #: The distance to the goal, scene units.
     error: float = inf
-    #: Whether it makes other choices than the run where the drag begins.
+    #: Whether the run makes other choices than the run at the start of the drag.
     is_other: bool = False
 
     @property
     def choices(self) -> dict[str, Any]:
-        """The choices where they have been moved to, by readable address."""
+        """The moved choices, by readable address."""
         return {c.path: self.values.get(c.address, c.value) for c in self.trace.choices}
 
 
 @dataclass
 class Place:
-    """The numbers of a descent: what may move, by how much, and the derivatives of the point."""
+    """Numbers of a descent: the movable choices, their ranges, and the derivatives of the point."""
 
     movables: list[tuple[int, str, bool]]
     #: Value, bounds and deviation of each, (n, 4).
@@ -69,7 +69,7 @@ class Place:
 
     @property
     def reach(self) -> dict[str, float]:
-        """How far each choice moves the point when it changes by its deviation, scene units."""
+        """The distance by which each choice moves the point when it changes by its deviation, scene units."""
         far = np.linalg.norm(self.slopes, axis=0) * self.ranges[:, 3]
         return {name: float(d) for (_, name, _), d in zip(self.movables, far, strict=True)}
 
@@ -126,13 +126,13 @@ class Held:
         wanted = {n for n, address in enumerate(scene) if _engine.matches(part, address)}
         if not wanted:
             choices = [choice.path for choice in trace.choices if choice.family != "delta"]
-            calls = parts.matching(part, choices, scene, self.search.model.name)
+            calls = parts.matching_parts(part, choices, scene, self.search.model.name)
             wanted = {n for n, place in enumerate(scene) if any(place.startswith(f"{c}/") for c in calls)}
         if not wanted:
             near = ", ".join(f"`{one}`" for one in _engine.nearest(part, scene))
             raise InputError("no-address", pattern=part, name=self.search.model.name, nearest=near)
         free = {choice.address for choice in trace.choices}
-        # A part that is held is placed as well: then nothing moves it, and the reason says so.
+        # A part whose choices are held is placed, too; the reason then names the held choices.
         self.all = self.start.placer.positions({}, free)
         spreads = np.maximum(self.all.ranges()[:, 3], 1e-12).tolist()
         self.spreads = {one[1]: spread for one, spread in zip(self.all.movables, spreads, strict=True)}
@@ -146,10 +146,9 @@ class Held:
         return found
 
     def _grip(self, grab: Vector | None, to: Vector | None) -> Grip:
-        """The point that is held.
+        """Find the held point.
 
-        It is `grab`, fixed to the shape that it is nearest to; without it the middle of the shape that is nearest to
-        where it should go.
+        The point is `grab`, fixed to the nearest shape; the default is the middle of the shape that is nearest to `to`.
         """
         goal = to if grab is None else grab
 
@@ -166,11 +165,11 @@ class Held:
         return Grip(shape, triple(shares), offset)
 
     def movable(self, state: State) -> set[int]:
-        """Choices that may move: all that are not held."""
+        """The choices that may move: all that are not held."""
         return {choice.address for choice in state.trace.choices if choice.path not in self.holds}
 
     def place(self, state: State, free: set[int]) -> Place | None:
-        """The point and its derivatives; None where nothing moves it."""
+        """The point and its derivatives; None if no choice moves it."""
         positions = state.placer.positions(state.values, free)
         number = next((n for n, (address, _) in enumerate(positions.parts) if address == state.part), None)
         if number is None or self.grip.shape >= positions.parts[number][1]:
@@ -183,11 +182,11 @@ class Held:
         return Place(positions.movables, positions.ranges(), self.grip.at(frame), slopes)
 
     def whole(self, state: State) -> Place | None:
-        """The same, with all that may move."""
+        """The point and its derivatives by all movable choices; None if no choice moves it."""
         return self.place(state, self.movable(state))
 
     def left(self, goal: Vector, point: Vector) -> float:
-        """What is left from a point to the goal, scene units."""
+        """The distance from a point to the goal, scene units."""
         return float(np.linalg.norm(self.across @ (goal - point)))
 
     def movers(self, place: Place) -> set[str]:
@@ -196,21 +195,21 @@ class Held:
 
     @cached_property
     def begun(self) -> Place | None:
-        """The point in the run where the drag begins, with all that may move."""
+        """The point at the start of the drag, with its derivatives by all movable choices."""
         return self.whole(self.start)
 
     @property
     def middle(self) -> Vector:
-        """The middle of the shape that is held, in that run."""
+        """The middle of the held shape at the start of the drag."""
         return next(frame[0] for n, k, frame, _ in self._grips if (n, k) == (self.at, self.grip.shape))
 
     def replayed(self, task: _engine.Task, state: State, seed: int | None = None) -> _engine.Trace:
-        """A run with the choices where they have been moved to; others are drawn from the seed."""
+        """Replay a run with the moved choices; other choices are drawn from the seed."""
         return task.replay(state.choices, seed)
 
 
 def point_of(name: str, given: Point) -> Vector:
-    """A point of two or three numbers."""
+    """Read a point of two or three numbers."""
     point = np.array(given, dtype=np.float64)
     if point.shape == (2,):
         point = np.append(point, 0.0)
@@ -220,7 +219,7 @@ def point_of(name: str, given: Point) -> Vector:
 
 
 def triple(point: Vector) -> tuple[float, float, float]:
-    """A point as a tuple."""
+    """Convert a point to a tuple."""
     x, y, z = point.tolist()
     return x, y, z
 

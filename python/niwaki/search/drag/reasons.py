@@ -1,4 +1,4 @@
-"""Why a part is not where it should be, in plain words."""
+"""Reasons why a part does not reach its goal, in plain words."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from niwaki.search.drag.held import Held, State, Vector
 
 
 def nothing_moves(held: Held) -> str:
-    """Nothing that is free moves the part: all that could is held, or there is nothing."""
+    """Word that no free choice moves the part: all that could are held, or there are none."""
     part = held.start.part
     slopes = held.all.slopes(held.at, held.grip.shape, held.grip.shares)
     moves = [] if slopes is None else np.abs(slopes).max(axis=0) > 0
-    names = [name for (_, name, _), is_one in zip(held.all.movables, moves, strict=False) if is_one]
+    names = [name for (_, name, _), is_mover in zip(held.all.movables, moves, strict=False) if is_mover]
     if not names:
         return f"no choice of a real number moves `{part}`: its place follows from the source"
     many = (
@@ -23,11 +23,11 @@ def nothing_moves(held: Held) -> str:
         if len(names) == 1
         else f"all {len(names)} choices that move it are held"
     )
-    return f"nothing that is free moves `{part}`: {many} ({_listed(names)})"
+    return f"no free choice moves `{part}`: {many} ({_listed(names)})"
 
 
 def too_far(held: Held, goal: Vector, state: State) -> str:
-    """How near the part can come, and what keeps it."""
+    """Word how near the part can come, and the reason."""
     part = state.part
     share = f"{state.error / held.size:.1%} of the scene"
     left = f"the nearest that `{part}` can come is {state.error:.3g} away ({share})"
@@ -47,8 +47,8 @@ def too_far(held: Held, goal: Vector, state: State) -> str:
         return f"{left}: {'; '.join(ends[:2])}{more}"
     strength = np.linalg.svd(held.across @ here.slopes * here.ranges[:, 3], compute_uv=False)
     free = int((strength > 1e-6 * max(held.size, strength[0])).sum())
-    wanted = int(round(float(np.trace(held.across))))
-    if free < wanted:
+    dimensions = int(round(float(np.trace(held.across))))
+    if free < dimensions:
         moves = (
             "does not move it that way",
             "moves it along a line only",

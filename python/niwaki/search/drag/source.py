@@ -1,8 +1,8 @@
 """Changes of a model's file: numbers that explain a drag, defaults or literals; and arguments as defaults.
 
-The program is recorded once more with each real number of the model's file as something that may move, and no choice. A
-choice whose distribution has such a number keeps its place in it (`crates/grad/src/positions.rs`), so that the mean of
-a `gaussian` explains a value that has moved. Each number alone is tried, and the numbers of one tuple together.
+The program is recorded with each real number of the model's file as a movable number, and with fixed choices. A choice
+keeps its place in its distribution (`crates/grad/src/positions.rs`), so the mean of a `gaussian` can explain a value
+that has moved. Each number is tried alone, and the numbers of one tuple together.
 """
 
 from __future__ import annotations
@@ -30,17 +30,17 @@ if TYPE_CHECKING:
     from niwaki.lang.models import Model
     from niwaki.search.drag.held import Held, Vector
 
-#: Steps of a descent, and numbers that are tried: those that move the point most.
+#: The most steps of a descent, and the most numbers that are tried, those that move the point most.
 STEPS, TRIED = 12, 24
-#: A part is there when what is left is less than this share of the scene's size.
+#: A part is at the goal if its distance is less than this share of the scene's size.
 NEAR = 0.01
-#: Digits of a number that is written.
+#: The digits of a number in an edit.
 DIGITS = 4
 
 
 @dataclass(frozen=True)
 class Edit:
-    """A piece of a line and what takes its place; line and columns from 1, the end excluded."""
+    """Edit of a piece of a line; line and columns from 1, the end excluded."""
 
     line: int
     column: int
@@ -51,16 +51,16 @@ class Edit:
 
 @dataclass(frozen=True)
 class SourceChange:
-    """A change of a model's file.
+    """Change of a model's file.
 
     Attributes
     ----------
     path : str
         The file.
     edits : tuple of Edit
-        What changes.
+        The edits of the file.
     share : float
-        Of a drag, what is left to the point, as a share of the scene's size.
+        The distance to the goal of a drag, as a share of the scene's size.
     choices : dict
         Choices that keep their places in distributions that have changed, with their values.
     arguments : dict
@@ -76,16 +76,16 @@ class SourceChange:
 
     @property
     def says(self) -> str:
-        """What it does, in a few words."""
-        return "; ".join(f"line {one.line}: {one.before} becomes {one.after}" for one in self.edits)
+        """Description of the change, in a few words."""
+        return "; ".join(f"line {edit.line}: {edit.before} becomes {edit.after}" for edit in self.edits)
 
     @property
     def changed(self) -> str:
         """The text of the file with the change."""
         lines = self.text.split("\n")
-        for one in sorted(self.edits, key=lambda one: (one.line, -one.column)):
-            line = lines[one.line - 1]
-            lines[one.line - 1] = line[: one.column - 1] + one.after + line[one.end_column - 1 :]
+        for edit in sorted(self.edits, key=lambda edit: (edit.line, -edit.column)):
+            line = lines[edit.line - 1]
+            lines[edit.line - 1] = line[: edit.column - 1] + edit.after + line[edit.end_column - 1 :]
         return "\n".join(lines)
 
     def difference(self) -> str:
@@ -100,7 +100,7 @@ class SourceChange:
         Raises
         ------
         InputError
-            `edited-meanwhile`: the file is not what it was when this change was found.
+            `edited-meanwhile`: the file has changed since this change was computed.
         """
         place = Path(self.path)
         if not place.is_file() or place.read_bytes() != self.text.encode():
@@ -110,7 +110,7 @@ class SourceChange:
 
 @dataclass
 class _Number:
-    """A number of the source: its key for the engine, its place and its value."""
+    """Number of the source: its key for the engine, its place and its value."""
 
     kind: str
     key: int
@@ -120,7 +120,7 @@ class _Number:
 
 
 def explained(held: Held, goal: Vector, most: int = 3) -> list[SourceChange]:
-    """The changes of the model's file that take the held point to a goal, those that change the source least first."""
+    """List changes of the model's file that take the held point to a goal, the least change first."""
     model = held.search.model
     found = _source(model)
     if found is None:
@@ -144,31 +144,31 @@ def explained(held: Held, goal: Vector, most: int = 3) -> list[SourceChange]:
             task = task.holding(held.search.held)
         placer = task.placer(held.start.trace.run)
         descent = _Descent(held, placer, goal)
-        begun = descent.look(numbers, [one.value for one in numbers], {})
+        begun = descent.look(numbers, [number.value for number in numbers], {})
         reach = {} if begun is None else dict(enumerate(np.linalg.norm(begun.slopes, axis=0).tolist()))
         moving = [numbers[k] for k in sorted(reach, key=lambda k: -reach[k]) if reach[k] > 0][:TRIED]
-        groups = [[one] for one in moving] + list(_together(moving, ast.parse(text)))
+        groups = [[number] for number in moving] + list(_together(moving, ast.parse(text)))
         changes = [
             change for group in groups if (change := descent.change(group, file.path, text)) is not None
         ]
-    # A group of which one number changes is that number alone.
-    different = {one.edits: one for one in reversed(changes) if one.edits}
-    return sorted(different.values(), key=lambda one: sum(map(_size, one.edits)))[:most]
+    # A group in which one number changes equals the group of that number.
+    distinct = {change.edits: change for change in reversed(changes) if change.edits}
+    return sorted(distinct.values(), key=lambda change: sum(map(_size, change.edits)))[:most]
 
 
 def as_defaults(model: Model[..., Any], arguments: Mapping[str, Any]) -> SourceChange | None:
-    """The change of the model's file that makes arguments the defaults of their parameters.
+    """Make arguments the defaults of their parameters, as a change of the model's file.
 
     Parameters
     ----------
     model
         The model.
     arguments
-        Values by parameter; left out are those whose default is not written as a number, a text or a truth value.
+        Values by parameter. A default that is not written as a number, a text or a truth value stays.
 
     Returns
     -------
-    None where nothing changes, or where the file is not the user's, or not as it was read.
+    None if nothing changes, if the file is not the user's, or if it has changed since it was read.
     """
     found = _source(model)
     if found is None:
@@ -191,7 +191,7 @@ def as_defaults(model: Model[..., Any], arguments: Mapping[str, Any]) -> SourceC
 
 
 def _source(model: Any) -> tuple[SourceFile, ast.FunctionDef | ast.Lambda, str] | None:
-    """The file of a model, its function there and the text; None for a file of ours, or that has changed meanwhile."""
+    """The file of a model, its function there and the text; None for a file of Niwaki, or a changed file."""
     function = getattr(model, "function", None)
     found = None if function is None else find_function(function)
     if found is None:
@@ -207,7 +207,7 @@ def _source(model: Any) -> tuple[SourceFile, ast.FunctionDef | ast.Lambda, str] 
 
 @dataclass
 class _Look:
-    """The point, its derivatives by numbers, and what gives the choices that follow them."""
+    """The point, its derivatives by numbers, and the positions, which give the choices that follow the numbers."""
 
     point: Vector
     slopes: Vector
@@ -215,7 +215,7 @@ class _Look:
 
 
 class _Descent:
-    """Numbers that are moved until the held point is at a goal."""
+    """Descent of numbers until the held point is at a goal."""
 
     def __init__(self, held: Held, placer: _engine.Placer, goal: Vector) -> None:
         self.held, self.placer, self.goal = held, placer, goal
@@ -224,20 +224,20 @@ class _Descent:
     def look(
         self, numbers: Sequence[_Number], values: Sequence[float], choices: Mapping[int, float]
     ) -> _Look | None:
-        """Where the point is with these numbers; None where the run fails or the part is not there."""
+        """The point with these numbers; None if the run fails or has no such part."""
         kinds: dict[str, dict[int, float]] = {"arguments": {}, "constants": {}}
-        for one, value in zip(numbers, values, strict=True):
-            kinds[one.kind][one.key] = value
+        for number, value in zip(numbers, values, strict=True):
+            kinds[number.kind][number.key] = value
         try:
             positions = self.placer.positions(choices, set(), **kinds)
         except _engine.EngineFault:
             return None
         grip, part = self.held.grip, self.held.start.part
-        number = next((n for n, (address, _) in enumerate(positions.parts) if address == part), None)
-        frame = None if number is None else positions.frame(number, grip.shape)
-        if number is None or frame is None:
+        index = next((n for n, (address, _) in enumerate(positions.parts) if address == part), None)
+        frame = None if index is None else positions.frame(index, grip.shape)
+        if index is None or frame is None:
             return None
-        slopes = positions.slopes(number, grip.shape, grip.shares)
+        slopes = positions.slopes(index, grip.shape, grip.shares)
         assert slopes is not None
         # The engine's order: arguments, then constants, each by their numbers.
         order = sorted(range(len(numbers)), key=lambda k: (numbers[k].kind, numbers[k].key))
@@ -245,10 +245,10 @@ class _Descent:
         return _Look(grip.at(frame), slopes[:, [place[k] for k in range(len(numbers))]], positions)
 
     def change(self, numbers: list[_Number], path: str, text: str) -> SourceChange | None:
-        """The change of these numbers that takes the point to the goal; None where none does."""
-        numbers = sorted(numbers, key=lambda one: (one.kind, one.key))
+        """Change these numbers so that the point is at the goal; None if that is impossible."""
+        numbers = sorted(numbers, key=lambda number: (number.kind, number.key))
         across, size = self.held.across, self.held.size
-        values, choices = [one.value for one in numbers], dict[int, float]()
+        values, choices = [number.value for number in numbers], dict[int, float]()
         scale = np.maximum(np.abs(values), 0.01 * size)
         here = self.look(numbers, values, choices)
         for _ in range(STEPS):
@@ -272,22 +272,22 @@ class _Descent:
         if share > NEAR or any(abs(x) > 1e6 for x in rounded):
             return None
         edits = tuple(
-            Edit(one.span.line, one.span.column, one.span.end_column, one.span.text, repr(x))
-            for one, x in zip(numbers, rounded, strict=True)
-            if x != one.value
+            Edit(number.span.line, number.span.column, number.span.end_column, number.span.text, repr(x))
+            for number, x in zip(numbers, rounded, strict=True)
+            if x != number.value
         )
         return SourceChange(
             path,
             edits,
             share,
             {self.names[address]: x for address, x in choices.items() if address in self.names},
-            {one.name: x for one, x in zip(numbers, rounded, strict=True) if one.name},
+            {number.name: x for number, x in zip(numbers, rounded, strict=True) if number.name},
             text,
         )
 
 
 def _arguments(search: SearchLike) -> list[Any]:
-    """All arguments of a search by position, defaults included."""
+    """All arguments of a search by position, with defaults."""
     bound = inspect.signature(search.model.function).bind(*search.args)
     bound.apply_defaults()
     return [bound.arguments[name] for name in search.model.core().parameters]
@@ -302,7 +302,7 @@ def _defaults(node: ast.FunctionDef | ast.Lambda) -> Iterator[tuple[int, str, as
 
 
 def _value(node: ast.expr) -> float | None:
-    """The number that an expression writes."""
+    """Read the number of an expression."""
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
         inner = _value(node.operand)
         return None if inner is None else -inner
@@ -310,19 +310,19 @@ def _value(node: ast.expr) -> float | None:
 
 
 def _together(numbers: Sequence[_Number], tree: ast.Module) -> Iterator[list[_Number]]:
-    """Numbers that stand in one tuple or `vec`, two or more."""
+    """Group the numbers of one tuple or `vec`, two or more."""
     for node in ast.walk(tree):
         is_vec = (
             isinstance(node, ast.Call) and getattr(node.func, "id", getattr(node.func, "attr", "")) == "vec"
         )
         inside = node.args if isinstance(node, ast.Call) and is_vec else getattr(node, "elts", [])
-        places = {(one.lineno, one.col_offset + 1) for one in inside if _value(one) is not None}
-        group = [one for one in numbers if (one.span.line, one.span.column) in places]
+        places = {(entry.lineno, entry.col_offset + 1) for entry in inside if _value(entry) is not None}
+        group = [number for number in numbers if (number.span.line, number.span.column) in places]
         if len(group) > 1:
             yield group
 
 
 def _size(edit: Edit) -> float:
-    """How much an edit changes its number, as a share of it."""
+    """The size of an edit, as a share of its number."""
     before, after = float(edit.before.replace(" ", "")), float(edit.after)
     return abs(after - before) / max(abs(before), 0.1)

@@ -1,4 +1,4 @@
-"""Discrete choices that decide the part: a branch more, a segment less."""
+"""Discrete choices that decide the part, such as for one more branch or one segment less."""
 
 from __future__ import annotations
 
@@ -12,31 +12,31 @@ from niwaki.result import parts
 from niwaki.search.drag.descent import descend
 from niwaki.search.drag.held import Held, State, Vector
 
-#: Values that are tried, and those of them from which a descent begins.
-TRIED, BEGUN = 32, 6
+#: The most values that are tried, and the most descents that begin from them.
+TRIED, DESCENTS = 32, 6
 
 
 def structures(held: Held, goal: Vector) -> list[State]:
-    """Runs with another value of one discrete choice that decides the part, each moved to the point."""
-    begun: list[tuple[float, State]] = []
+    """Descend from runs with another value of one discrete choice that decides the part."""
+    starts: list[tuple[float, State]] = []
     for name, value in _tried(held):
         try:
             other = held.task.replay({**held.values, name: value}, held.search.seed)
         except _engine.EngineFault:
             continue
         if other.run.log_prior > -inf:
-            begun += _near(held, goal, State(other, held.task.placer(other.run), "", is_other=True))
-    begun.sort(key=lambda one: one[0])
-    found = []
-    for _, state in begun[:BEGUN]:
+            starts += _near(held, goal, State(other, held.task.placer(other.run), "", is_other=True))
+    starts.sort(key=lambda start: start[0])
+    states = []
+    for _, state in starts[:DESCENTS]:
         here = held.whole(state)
         if here is not None:
-            found.append(descend(held, goal, state, held.movers(here)))
-    return found
+            states.append(descend(held, goal, state, held.movers(here)))
+    return states
 
 
 def _tried(held: Held) -> list[tuple[str, Any]]:
-    """Choices with other values: those first that are made last."""
+    """Choices with other values; choices that a run makes last come first."""
     call = held.start.part.rpartition("/")[0]
     deciding = {*parts.deciding(call), call}
     choices = [c for c in held.start.trace.choices if c.path.rpartition("/")[0] in deciding]
@@ -45,18 +45,18 @@ def _tried(held: Held) -> list[tuple[str, Any]]:
 
 
 def _near(held: Held, goal: Vector, state: State) -> list[tuple[float, State]]:
-    """The part in another run, by its address, and how far it is; with those that take its place in its loops."""
-    part, found = held.start.part, []
-    for one in sorted({part, *_siblings(part)} & {address for address, _ in state.trace.parts}):
-        there = replace(state, part=one)
+    """States of the part in another run, and of its siblings in loops, with their distances."""
+    part, states = held.start.part, []
+    for address in sorted({part, *_siblings(part)} & {place for place, _ in state.trace.parts}):
+        there = replace(state, part=address)
         here = held.whole(there)
         if here is not None:
-            found.append((held.left(goal, here.point), there))
-    return found
+            states.append((held.left(goal, here.point), there))
+    return states
 
 
 def _others(choice: _engine.Choice) -> list[Any]:
-    """Other values of a discrete choice, those that are near first; outside of its support a run is impossible."""
+    """Other values of a discrete choice, near ones first; outside of its support a run is impossible."""
     if isinstance(choice.value, bool):
         return [not choice.value]
     if not isinstance(choice.value, int):
@@ -66,7 +66,7 @@ def _others(choice: _engine.Choice) -> list[Any]:
 
 
 def _siblings(part: str) -> Iterable[str]:
-    """The same part of the next and of the last iteration of each loop that it is in."""
+    """The corresponding parts of the next and the previous iteration of each loop around a part."""
     at = part.find("]")
     while at >= 0:
         begin = part.rfind("[", 0, at)
