@@ -101,8 +101,8 @@ impl PartialRun {
         draw: &mut dyn FnMut() -> f64,
     ) -> Result<Option<PartialRun>, Failure> {
         let values = by_address(entries);
-        let otherwise = Refuse("start from a run of the same model with the same arguments");
-        let mut chooser = Known { values: Some(&values), otherwise };
+        let fallback = Refuse("start from a run of the same model with the same arguments");
+        let mut chooser = Known { values: Some(&values), fallback };
         let mut next = picks(entries);
         let mut pick = |state: &State, past: &Past| next(state).unwrap_or_else(|| past.pick(state, draw()));
         PartialRun::run(with, machine, &mut chooser, None, &mut pick, barriers)

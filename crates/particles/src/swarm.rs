@@ -298,12 +298,12 @@ fn advance(
     settings: &Settings,
     sight: &mut Sight,
 ) -> Result<(), Failure> {
-    let (stream, otherwise) = (particle.stream, Prior(particle.stream));
+    let (stream, fallback) = (particle.stream, Prior(particle.stream));
     match settings.proposal.as_deref() {
-        None => particle.advance(machine, task, settings.seed, otherwise)?,
+        None => particle.advance(machine, task, settings.seed, fallback)?,
         Some(proposal) => {
             sight.recall(&particle.glance);
-            let chooser = ByProposal { proposal, stream, sight, otherwise };
+            let chooser = ByProposal { proposal, stream, sight, fallback };
             particle.advance(machine, task, settings.seed, chooser)?
         }
     };

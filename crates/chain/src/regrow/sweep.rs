@@ -115,7 +115,7 @@ impl Chooser for Grow<'_> {
                     None => fresh.choose(at, dist, seen)?,
                     Some(proposal) => {
                         let (stream, sight) = (self.stream, &mut *self.sight);
-                        ByProposal { proposal, stream, sight, otherwise: fresh }.choose(at, dist, seen)?
+                        ByProposal { proposal, stream, sight, fallback: fresh }.choose(at, dist, seen)?
                     }
                 };
                 let Some(chosen) = drawn else { return Ok(None) };
