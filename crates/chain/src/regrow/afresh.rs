@@ -1,7 +1,7 @@
-//! One part of a run grown again, and everything outside of it as it was.
+//! Fresh regrowth: a part of a run is grown again, and everything outside of the part is held.
 //!
 //! Particles grow the part from its inputs, in a scene that has everything else. Their weights are those of regrowth, but
-//! none of them holds the present values: they follow the law of the part given the rest, by weight.
+//! no particle holds the present values. With their weights they follow the conditional law of the part.
 
 use super::{Block, Contents, Regrow, Weighing, pick, refuse_memoised};
 use crate::walk::Walk;
@@ -16,21 +16,20 @@ use niwaki_vm::value::Value;
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// How a part is grown again.
+/// The settings of a fresh regrowth.
 #[derive(Clone, Copy, Debug)]
 pub struct Afresh<'a> {
-    /// A pattern that matches the part alone.
+    /// A pattern that matches only the part.
     pub part: &'a str,
-    /// How many particles.
+    /// The number of particles.
     pub particles: usize,
     /// The power of the score.
     pub power: f64,
-    /// Decides every random number.
+    /// The seed of all random numbers.
     pub seed: u64,
 }
 
-/// The runs that are the one with these values outside of the part: one for each particle that is possible, with its
-/// weight.
+/// Grow a part again. Returns a run for each possible particle, with its weight; outside of the part each run has these values.
 ///
 /// # Errors
 /// A pattern that matches no part or several, no particles, values of an impossible run, particles that are all impossible, a fault of the

@@ -1,22 +1,21 @@
-//! Regrowth: a part of the run is grown again in place by conditional SMC, and everything else is held.
+//! Regrowth: conditional SMC grows a part of the run again in place, and holds everything else.
 //!
-//! Particle Gibbs of a block: the block `B` is what the part chooses, `R` is all else. Particles grow the part from its
-//! inputs, in a scene that already has everything of `R`; one of them holds the present values, under an order of its
-//! futures that is drawn anew. One particle is drawn by weight, and its values replace the part's. This leaves
+//! Regrowth is particle Gibbs of a block: the block `B` has the choices of the part, `R` all other choices. Particles grow the part
+//! from its inputs, in a scene that already has all parts of `R`. One particle holds the present values, under a redrawn order
+//! of its futures. A particle is drawn by weight, and its values replace those of the part. This leaves
 //! `p(B | R)` invariant for any number of particles (Andrieu, Doucet & Holenstein 2010, section 4.5).
 //!
-//! * `pick`: which part is grown again. The pick is an auxiliary variable: its probability, in each particle's run,
-//!   multiplies that particle's last weight.
-//! * [`afresh()`]: one named part grown again by particles of which none holds the present values;
+//! * `pick`: the choice of the part. The pick is an auxiliary variable: its probability in each particle's run multiplies the last
+//!   weight of the particle.
+//! * [`afresh()`]: regrowth of a named part by particles without the present values;
 //! * Values come from their priors, or from a proposal: a user's or a guide. The weights count prior over proposal then,
 //!   also those of the particle that holds the present values.
 //! * Particles are compared in the scene around the part, and a guide sees it; it must be the same on the way back. So a
-//!   particle with whose result shapes outside of the part move has weight zero: the posterior is kept within the runs
-//!   that share that scene.
+//!   particle whose result moves shapes outside of the part has weight zero: the posterior is invariant within the runs that
+//!   share that scene.
 //! * `reach`: whether a chain of such moves alone reaches every run; `sweep`: SMC of a part; `turn`: other values of a discrete choice.
-//! * Where a part returns another value than before, the rest of the run is evaluated with it: the densities of the held
-//!   choices and the score change, and multiply the weight. A run that does not make exactly the choices of `R` beside
-//!   its own has weight zero.
+//! * If a part returns a different value, the run outside of the part is evaluated again: the change of the densities of held
+//!   choices and of the score multiplies the weight. A run whose choices outside of the part are not exactly `R` has weight zero.
 //! * *Turn and regrow*: a discrete choice of the part's own activation gets another value `v'`, drawn from `g(v' | v)`.
 //!   Conditional SMC with the old value estimates the normalising constant `Z`, free SMC with the new one estimates `Z'`,
 //!   and the probabilities of the pick, of the choice and of `g` are in both. The new part is kept with probability
@@ -55,45 +54,45 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use sweep::{Block, Grown, Set};
 
-/// One regrowth.
+/// A regrowth move.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Regrow {
-    /// Particles, the one with the present values among them.
+    /// The number of particles, including the particle with the present values.
     particles: usize,
-    /// How often a discrete choice of the part is turned, where it has one.
+    /// The probability of turning a discrete choice of the part, if it has one.
     turn: f64,
-    /// Which part is grown again.
+    /// The rule that picks the part.
     pick: Pick,
-    /// Whether the best of particles that all grow the part afresh is kept where it is better: a search, which leaves no
-    /// distribution invariant.
+    /// Whether the move keeps the best of fresh particles if it is better: an optimising move, which leaves no distribution
+    /// invariant.
     #[serde(default)]
     best: bool,
-    /// What draws values in place of the prior.
+    /// The proposal that draws values in place of the prior.
     #[serde(skip)]
     proposal: Option<Arc<Proposal>>,
-    /// Which choices may change.
+    /// The selection of choices that may change.
     #[serde(skip)]
     selection: Selection,
 }
 
 impl Regrow {
-    /// From now on a proposal draws the values of the particles.
+    /// Set the proposal that draws the values of the particles.
     pub(crate) fn draw_by(&mut self, proposal: Arc<Proposal>) {
         self.proposal = Some(proposal);
     }
 
-    /// Whether it looks at the scene.
+    /// Whether the move uses the scene.
     pub(crate) fn looks(&self) -> bool {
         self.proposal.as_ref().is_some_and(|proposal| proposal.looks())
     }
 
-    /// Whether the addresses of a part are to be readable from the root.
+    /// Whether addresses of a part must be readable from the root.
     fn needs_paths(&self) -> bool {
         !self.selection.is_all() || self.proposal.as_ref().is_some_and(|proposal| proposal.needs_origins())
     }
 
-    /// Takes the choices that may change.
+    /// Set the selection of choices that may change.
     ///
     /// # Errors
     /// Fewer than two particles, a share outside of 0 to 1, selection weights.
@@ -123,19 +122,19 @@ struct Turned {
     new: Value,
 }
 
-/// What a part chooses.
+/// The choices of a part.
 struct Contents {
     /// The choices that may change: address and value.
     held: HashMap<u128, Value>,
-    /// The others.
+    /// The choices that may not change.
     rest: HashMap<u128, Value>,
-    /// The numbers of those that may change.
+    /// The numbers of the choices that may change.
     numbers: Vec<usize>,
 }
 
 impl Contents {
-    /// What a part of a run chooses, and the sketches of the scene without it; `None` where that scene alone is impossible, so
-    /// that no particle could start from it.
+    /// The choices of a part of a run, and the sketches of the scene without the part. `None` if that scene is impossible, so that no
+    /// particle can start.
     fn of(
         state: &State,
         program: &Program,
@@ -257,7 +256,7 @@ impl ChainMove for Regrow {
     }
 }
 
-/// What the last weights of the particles depend on.
+/// The inputs of the last weights of the particles.
 struct Weighing<'a> {
     task: &'a Task,
     own: &'a Regrow,
@@ -265,7 +264,7 @@ struct Weighing<'a> {
     block: &'a Block<'a>,
     /// The numbers of the part's choices that may change.
     numbers: &'a [usize],
-    /// Numbers of its primitives, ascending; `None` where it may move what is around it, as in a search.
+    /// The numbers of the primitives of the part, ascending; `None` if it may move shapes around it, as in an optimising move.
     emits: Option<Vec<u32>>,
 }
 
@@ -282,7 +281,7 @@ impl Weighing<'_> {
 }
 
 impl Walk {
-    /// Opens a transaction that gives choices of a part the values of a particle.
+    /// Open a transaction that gives choices of a part the values of a particle.
     fn replace(
         &mut self,
         task: &Task,
@@ -297,8 +296,8 @@ impl Walk {
         }
     }
 
-    /// The best of particles that grew a part afresh takes its place, if the score is higher, or by chance with the
-    /// probability that the power of the score gives to a lower one.
+    /// Replace a part by the best of fresh particles if the score is higher; otherwise with the probability that the power of the score
+    /// gives to a lower score.
     fn keep_best(
         &mut self,
         machine: &mut Machine<'_>,

@@ -1,4 +1,4 @@
-//! Other values of a discrete choice.
+//! Turns: alternative values of a discrete choice.
 //!
 //! From a short list of values the others are drawn by their probabilities: `g(v' | v) = p(v') / (1 - p(v))`. Any other
 //! whole number moves up or down by one, with equal probability where both are possible.
@@ -9,13 +9,13 @@ use niwaki_run::weights::index;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::value::{Value, log_density, same};
 
-/// A longer list of values counts as whole numbers.
+/// The longest list of values that is enumerated; longer lists count as whole numbers.
 const SHORT: i64 = 64;
 
 /// Values, each with the log probability of turning to it, nats.
 pub(super) type Others = Vec<(Value, f64)>;
 
-/// The other values of a choice; none where there are no others, or the choice is continuous.
+/// The alternative values of a choice; empty for a single value or a continuous choice.
 pub(super) fn others(dist: &Dist, value: &Value) -> Result<Others, Fault> {
     let (listed, candidates): (bool, Vec<Value>) = match (dist.support().in_bounds(), value) {
         (_, Value::Bool(b)) => (true, vec![Value::Bool(!b)]),
@@ -40,7 +40,7 @@ pub(super) fn others(dist: &Dist, value: &Value) -> Result<Others, Fault> {
     Ok(others)
 }
 
-/// Draws one of them.
+/// Draw an alternative value.
 pub(super) fn draw(mut others: Others, rng: &mut Stream) -> Option<Value> {
     if others.is_empty() {
         return None;
