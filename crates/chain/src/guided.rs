@@ -100,7 +100,8 @@ impl Scene {
         };
         let (removed, added) = trace.exchanged();
         let removed = outside(removed, &self.omitted);
-        let added = if added.is_empty() { vec![] } else { outside(added, &trace.emits_below(program, choice)) };
+        let added =
+            if added.is_empty() { vec![] } else { outside(added, &trace.emits_below(program, choice)) };
         if removed.is_empty() && added.is_empty() {
             return false;
         }

@@ -1,4 +1,4 @@
-//! Several independent populations as one search, in parallel or until a time limit.
+//! Independent populations as a single search, in parallel or until a time limit.
 //!
 //! Population `m` of `N_m` particles estimates the normalising constant by `Z_m` without bias, so the searches
 //! together estimate it by `Z = sum N_m Z_m / sum N_m`, and a particle of weight `w` in its population weighs
@@ -51,17 +51,17 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// Particles of the first pilot.
+/// The number of particles of the first pilot.
 const PILOT: usize = 32;
 /// How much larger a pilot may be than the one before it: the measured cost of a particle holds for similar sizes.
 const GROWTH: f64 = 8.0;
-/// Share of the time that the last pilot is planned to take.
+/// The planned share of the time of the last pilot.
 const PILOT_SHARE: f64 = 0.1;
 /// Share of the time after which a pilot is stopped: its cost is then at least this.
 const PILOT_LIMIT: f64 = 0.25;
 /// Share of the time left that one population is planned to take: three are then complete even if they cost a tenth more.
 const SHARE: f64 = 0.3;
-/// A population has at least this many particles.
+/// The smallest number of particles of a population.
 const LEAST: usize = 16;
 
 /// The seed of the `number`-th population; of the first, the seed itself.
@@ -215,12 +215,12 @@ fn without_evidence(result: Result) -> Result {
     Result { log_normaliser: None, log_evidence: None, ..result }
 }
 
-/// A population that lived, among several.
+/// A surviving population.
 #[derive(Clone, Copy, Debug)]
 pub struct Share {
-    /// How many particles it has.
+    /// The number of particles.
     pub size: usize,
-    /// Its own estimate, as [`Result::log_normaliser`], nats.
+    /// The estimate of this population, like [`Result::log_normaliser`], nats.
     pub log_normaliser: Option<f64>,
     /// Log of the sum of its particles' weights.
     pub log_sum: f64,
@@ -245,7 +245,7 @@ pub fn united(lived: &[Share], total: usize) -> (Option<f64>, Vec<f64>) {
     (all, lived.iter().map(shift).collect())
 }
 
-/// The populations as one.
+/// Merge the populations.
 fn combine(
     plan: &[usize],
     results: Vec<std::result::Result<Result, Failure>>,

@@ -10,7 +10,7 @@
 //!
 //! The evidence is the mean of `Z'` over all `sweeps + 1` populations, those that died as zero. Their number is fixed
 //! beforehand and they do not depend on the chain, so the mean is unbiased, where a call in which all died counts as zero.
-//! To go on until one survives and then make all sweeps would be biased: the number of populations would depend on the
+//! Continuing until a population survives, and then making all sweeps, would be biased: the number of populations would depend on the
 //! estimates.
 
 use crate::gibbs::{Chain, check_chain, draw_index, sweep_seed};
@@ -23,11 +23,11 @@ use niwaki_run::streams::Reserved;
 use niwaki_run::weights::Normalised;
 use niwaki_run::{Failure, Task};
 
-/// `sweeps` sweeps after a first population. `watch` is called after each barrier; when it returns false, the sweeps so
-/// far are returned.
+/// Run `sweeps` sweeps after a first population. `watch` is called after each barrier; when it returns false, the sweeps so far are
+/// returned.
 ///
 /// # Errors
-/// Settings that a chain cannot have, a fault of the program, or populations that all died.
+/// Invalid settings; a fault of the program; populations that all died.
 pub fn pimh(
     task: &Task,
     settings: &Settings,
