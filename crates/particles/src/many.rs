@@ -236,7 +236,7 @@ impl Share {
 /// The populations that lived as one, of `total` particles with those that died: the log of their common estimate, and what
 /// is added to the log weights of each population.
 pub fn united(lived: &[Share], total: usize) -> (Option<f64>, Vec<f64>) {
-    let part = |one: &Share| one.log_normaliser.map(|own| own + (one.size as f64 / total as f64).ln());
+    let part = |share: &Share| share.log_normaliser.map(|log| log + (share.size as f64 / total as f64).ln());
     let all = lived.iter().map(part).collect::<Option<Vec<f64>>>().map(|logs| log_sum_exp(logs.into_iter()));
     let shift = |one: &Share| match (one.log_normaliser, all) {
         (Some(own), Some(all)) => own - all + (one.size as f64).ln() - one.log_sum,
@@ -269,13 +269,14 @@ fn combine(
     if plan.len() == 1 || lived.is_empty() {
         let no_plan =
             || Fault::new("no-particles", "the number of populations is 0").with_help("use at least one");
-        return lived.pop().map(|one| one.1).ok_or_else(|| died.unwrap_or_else(|| no_plan().into()));
+        return lived.pop().map(|(_, result)| result).ok_or_else(|| died.unwrap_or_else(|| no_plan().into()));
     }
     let shares: Vec<Share> = lived.iter().map(|(size, one)| Share::of(*size, one)).collect();
     let (log_normaliser, shifts) = united(&shares, total);
     let mut whole = Result {
         log_normaliser,
-        log_evidence: log_normaliser.filter(|_| lived.iter().all(|(_, one)| one.log_evidence.is_some())),
+        log_evidence: log_normaliser
+            .filter(|_| lived.iter().all(|(_, result)| result.log_evidence.is_some())),
         interrupted,
         plan: plan.to_vec(),
         died: deaths,

@@ -40,8 +40,8 @@ pub fn pimh(
     let mut first_death = None;
     let mut now: Option<(f64, Run)> = None;
     for sweep in 0..=sweeps {
-        let own = Settings { seed: sweep_seed(settings.seed, sweep), ..settings.clone() };
-        let proposed = match run(task, &own, false, watch) {
+        let sweep_settings = Settings { seed: sweep_seed(settings.seed, sweep), ..settings.clone() };
+        let proposed = match run(task, &sweep_settings, false, watch) {
             Ok(result) if result.interrupted => {
                 chain.interrupted = true;
                 break;
@@ -50,7 +50,7 @@ pub fn pimh(
                 let log = result.log_normaliser.unwrap_or(f64::NEG_INFINITY);
                 let mut weights = Normalised::default();
                 weights.read(result.particles.iter().map(|p| p.log_weight));
-                let drawn = result.particles.swap_remove(draw_index(&weights, own.seed, 0));
+                let drawn = result.particles.swap_remove(draw_index(&weights, sweep_settings.seed, 0));
                 Some((log, Run { log_weight: 0.0, ..drawn }))
             }
             Err(failure) if failure.is_impossible() => {

@@ -50,7 +50,7 @@ pub fn afresh(task: &Task, known: &HashMap<u128, Value>, with: &Afresh<'_>) -> R
     let (Contents { held, rest, numbers }, sketches) = contents.ok_or_else(Failure::no_start)?;
     let (outside, start) = (outside(&held), state.trace.start_part(program, picked.part, false));
     let (selection, path) = (Selection::default(), state.trace.part_path(picked.part));
-    let own = Regrow {
+    let kernel = Regrow {
         particles: with.particles,
         turn: 0.0,
         pick: pick::Pick::default(),
@@ -78,16 +78,16 @@ pub fn afresh(task: &Task, known: &HashMap<u128, Value>, with: &Afresh<'_>) -> R
     let block = block(with.particles);
     let mut set = block.free(&mut machine, None, moves.at(1).next_u64())?;
     let weighing =
-        Weighing { task, own: &own, picked: &picked, block: &block, numbers: &numbers, emits: None };
+        Weighing { task, kernel: &kernel, picked: &picked, block: &block, numbers: &numbers, emits: None };
     let before = (&present.grown[0], present.grown[0].result());
     chain.weigh_last(&mut machine, &weighing, &mut set, Some(before))?;
     if set.log_mean == f64::NEG_INFINITY {
-        let causes = set.grown.iter().map(|one| one.particle.record.cause.as_deref());
+        let causes = set.grown.iter().map(|member| member.particle.record.cause.as_deref());
         let named = causes.map(|cause| (cause.unwrap_or("a change outside of the part"), 1));
         return Err(Failure::impossible(0, named));
     }
     let weighed = set.grown.iter().zip(&set.weights.relative).filter(|(_, weight)| **weight > 0.0);
-    let parts: Vec<_> = weighed.map(|(one, weight)| (one.values(&block), weight.ln())).collect();
+    let parts: Vec<_> = weighed.map(|(member, weight)| (member.values(&block), weight.ln())).collect();
     let whole = |(part, log_weight): (HashMap<u128, Value>, f64)| {
         let known = outside.iter().map(|(address, value)| (*address, value.clone())).chain(part).collect();
         let (state, _) = State::start(task, streams, 1, Some(&known))?;

@@ -142,16 +142,16 @@ impl Contents {
         is_selected: &dyn Fn(usize) -> bool,
     ) -> Option<(Contents, Sketches)> {
         let trace = &state.trace;
-        let mut own = Contents { held: HashMap::new(), rest: HashMap::new(), numbers: vec![] };
+        let mut contents = Contents { held: HashMap::new(), rest: HashMap::new(), numbers: vec![] };
         let mut gone = vec![];
         trace.all_pieces(program, part, |piece| match piece {
             Piece::Choice(n) => {
                 let (address, value) = (trace.address(program, n), trace.choice(program, n).0.clone());
                 if is_selected(n) {
-                    own.numbers.push(n);
-                    own.held.insert(address, value);
+                    contents.numbers.push(n);
+                    contents.held.insert(address, value);
                 } else {
-                    own.rest.insert(address, value);
+                    contents.rest.insert(address, value);
                 }
             }
             Piece::Emit(primitive) => gone.push(primitive),
@@ -162,7 +162,7 @@ impl Contents {
             let kept = sketches.exchange(gone.iter().copied(), std::iter::empty());
             debug_assert!(kept, "the sketches and the trace hold the same scene");
         }
-        sketches.forbidden_by().is_none().then_some((own, sketches))
+        sketches.forbidden_by().is_none().then_some((contents, sketches))
     }
 }
 
@@ -181,13 +181,13 @@ fn refuse_memoised(program: &Program) -> Result<(), Failure> {
 impl ChainMove for Regrow {
     fn apply(&mut self, proposing: Proposing<'_, '_>) -> Result<(), Failure> {
         let Proposing { chain, task, machine, table, beta } = proposing;
-        let (own, visit, program) = (&*self, chain.visit, &*task.program);
+        let (kernel, visit, program) = (&*self, chain.visit, &*task.program);
         chain.visit += 1;
         refuse_memoised(program)?;
         let mut rng = chain.streams.decisions(visit);
         let trace = &chain.state.trace;
         let is_selected = |choice: usize| table.is_none_or(|t| chain.tables[t].weight(choice) > 0);
-        let Some(picked) = own.pick.draw(trace, program, &is_selected, &mut rng) else {
+        let Some(picked) = kernel.pick.draw(trace, program, &is_selected, &mut rng) else {
             return Ok(());
         };
         let Some((Contents { held, rest, numbers }, sketches)) =
@@ -197,8 +197,8 @@ impl ChainMove for Regrow {
         };
         let moves = chain.streams.moves(visit);
         let seed = |which: u128| moves.at(which).next_u64();
-        let mut start = trace.start_part(program, picked.part, own.needs_paths());
-        if own.looks() {
+        let mut start = trace.start_part(program, picked.part, kernel.needs_paths());
+        if kernel.looks() {
             trace.note_parts(program, picked.part, &mut start);
         }
         let block = Block {
@@ -208,14 +208,14 @@ impl ChainMove for Regrow {
             sketches,
             held: &held,
             rest: &rest,
-            selection: &own.selection,
-            proposal: own.proposal.as_deref(),
+            selection: &kernel.selection,
+            proposal: kernel.proposal.as_deref(),
             beta,
-            particles: own.particles,
+            particles: kernel.particles,
         };
-        let is_turned = rng.uniform() < own.turn;
+        let is_turned = rng.uniform() < kernel.turn;
         let turned = if is_turned { block.turned(machine, &mut rng)? } else { None };
-        if own.best {
+        if kernel.best {
             let set = block.free(machine, turned.as_ref(), seed(1))?;
             chain.grown += set.steps;
             return chain.keep_best(machine, &block, &set, &numbers, &mut rng);
@@ -224,7 +224,7 @@ impl ChainMove for Regrow {
         let held_result = set.grown[0].result();
         chain.grown += set.steps;
         let emits = Some(chain.state.trace.emits_of(program, picked.part));
-        let weighing = Weighing { task, own, picked: &picked, block: &block, numbers: &numbers, emits };
+        let weighing = Weighing { task, kernel, picked: &picked, block: &block, numbers: &numbers, emits };
         chain.weigh_last(machine, &weighing, &mut set, None)?;
         debug_assert!(set.log_mean > f64::NEG_INFINITY, "the present values are possible");
         let mut log_ratio = 0.0;
@@ -259,7 +259,7 @@ impl ChainMove for Regrow {
 /// The inputs of the last weights of the particles.
 struct Weighing<'a> {
     task: &'a Task,
-    own: &'a Regrow,
+    kernel: &'a Regrow,
     picked: &'a Picked,
     block: &'a Block<'a>,
     /// The numbers of the part's choices that may change.
@@ -274,7 +274,8 @@ impl Weighing<'_> {
     fn keeps_scene(&self, trace: &Trace) -> bool {
         let Some(before) = &self.emits else { return true };
         let (gone, come) = trace.exchanged();
-        let inside = |numbers: &[u32], own: &[u32]| numbers.iter().all(|one| own.binary_search(one).is_ok());
+        let inside =
+            |numbers: &[u32], all: &[u32]| numbers.iter().all(|number| all.binary_search(number).is_ok());
         inside(gone, before)
             && (come.is_empty() || inside(come, &trace.emits_of(&self.task.program, self.picked.part)))
     }
@@ -348,7 +349,8 @@ impl Walk {
         for grown in &set.grown {
             let mut log = grown.particle.log_weight;
             if grown.is_complete(with.block, is_turned) && log > f64::NEG_INFINITY {
-                log += with.picked.log_probability(&grown.seen) + turn::log_form(with.own.turn, &grown.seen);
+                log +=
+                    with.picked.log_probability(&grown.seen) + turn::log_form(with.kernel.turn, &grown.seen);
             } else {
                 log = f64::NEG_INFINITY;
             }

@@ -118,7 +118,7 @@ impl Pick {
                 loop {
                     let Sized { part, size, below: inner } = &parts[at];
                     let roots: Vec<f64> =
-                        parts[inner.clone()].iter().map(|one| (one.size as f64).sqrt()).collect();
+                        parts[inner.clone()].iter().map(|part| (part.size as f64).sqrt()).collect();
                     let sum: f64 = roots.iter().sum();
                     if u >= below(*size, all) || sum == 0.0 {
                         return Some(Picked { part: *part, size: *size, how: How::Size(levels) });

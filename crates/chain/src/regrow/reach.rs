@@ -22,7 +22,7 @@ const RUNS: u64 = 64;
 
 /// The outermost activations of a run that make choices, by the hashes of their paths.
 fn outermost(trace: &Trace, program: &Program) -> BTreeSet<u128> {
-    let (mut found, mut work) = (BTreeSet::new(), vec![Part::WHOLE]);
+    let (mut activations, mut work) = (BTreeSet::new(), vec![Part::WHOLE]);
     while let Some(part) = work.pop() {
         let (mut below, mut chooses) = (vec![], false);
         trace.pieces(program, part, |piece| match piece {
@@ -31,12 +31,12 @@ fn outermost(trace: &Trace, program: &Program) -> BTreeSet<u128> {
             Piece::Emit(_) | Piece::Held(_) => {}
         });
         if chooses {
-            found.insert(trace.part_path(part));
+            activations.insert(trace.part_path(part));
         } else {
             work.extend(below);
         }
     }
-    found
+    activations
 }
 
 /// Check by a few runs from the prior whether regrowth by choice alone cannot reach all runs.
@@ -48,8 +48,8 @@ pub fn is_apart(task: &Task, seed: u64) -> bool {
             // An impossible run has ended early.
             Ok((_, Change::Impossible)) => {}
             Ok((trace, _)) => {
-                let found = outermost(&trace, &task.program);
-                if first.get_or_insert_with(|| found.clone()) != &found {
+                let activations = outermost(&trace, &task.program);
+                if first.get_or_insert_with(|| activations.clone()) != &activations {
                     return true;
                 }
             }

@@ -125,10 +125,11 @@ impl Chooser for Grow<'_> {
         self.seen.selected += 1;
         if at.activation() == self.block.path && chosen.log_prior > f64::NEG_INFINITY {
             self.seen.direct += 1;
-            let others = turn::others(dist, &chosen.value)?;
-            self.seen.turnable += u64::from(!others.is_empty());
+            let alternatives = turn::alternatives(dist, &chosen.value)?;
+            self.seen.turnable += u64::from(!alternatives.is_empty());
             if let Some((_, _, other)) = turned {
-                self.seen.log_turn = others.iter().find(|(value, _)| same(value, other)).map(|(_, log)| *log);
+                self.seen.log_turn =
+                    alternatives.iter().find(|(value, _)| same(value, other)).map(|(_, log)| *log);
             }
         }
         Ok(Some(chosen))
@@ -167,7 +168,7 @@ impl Block<'_> {
         /// Collects the choices with other values while the present run is followed.
         struct Turnable<'a> {
             block: &'a Block<'a>,
-            met: Vec<(u128, Value, turn::Others)>,
+            met: Vec<(u128, Value, turn::Alternatives)>,
         }
         impl Chooser for Turnable<'_> {
             fn choose(
@@ -180,9 +181,9 @@ impl Block<'_> {
                 let held = self.block.held.get(&address);
                 let Some(value) = held.or_else(|| self.block.rest.get(&address)) else { return Ok(None) };
                 if held.is_some() && at.activation() == self.block.path {
-                    let others = turn::others(dist, value)?;
-                    if !others.is_empty() {
-                        self.met.push((address, value.clone(), others));
+                    let alternatives = turn::alternatives(dist, value)?;
+                    if !alternatives.is_empty() {
+                        self.met.push((address, value.clone(), alternatives));
                     }
                 }
                 Chosen::given(value.clone(), dist).map(Some)
@@ -195,8 +196,8 @@ impl Block<'_> {
             return Ok(None);
         }
         let at = ((rng.uniform() * all.met.len() as f64) as usize).min(all.met.len() - 1);
-        let (address, old, others) = all.met.swap_remove(at);
-        Ok(turn::draw(others, rng).map(|new| Turned { address, old, new }))
+        let (address, old, alternatives) = all.met.swap_remove(at);
+        Ok(turn::draw(alternatives, rng).map(|new| Turned { address, old, new }))
     }
 
     /// Conditional SMC: the first particle holds the present values. A choice that will be turned keeps its value in all.
@@ -232,14 +233,14 @@ impl Block<'_> {
             sketches: self.sketches.fork(),
             ..Record::default()
         };
-        let one = |lineage| Grown {
+        let member = |lineage| Grown {
             particle: Particle::start(self.start.clone(), first.fork(), lineage, seed),
             seen: Seen::default(),
             barriers: 0,
         };
         let lineages = self.particles as u64;
         let set = Set {
-            grown: (0..lineages).map(one).collect(),
+            grown: (0..lineages).map(member).collect(),
             weights: Normalised::default(),
             log_mean: 0.0,
             steps: 0,
@@ -269,24 +270,24 @@ impl Particles for Growing<'_, '_> {
     type Seen = bool;
 
     fn running(&mut self) -> usize {
-        let running = self.set.grown.iter().filter(|one| one.particle.is_running()).count();
+        let running = self.set.grown.iter().filter(|member| member.particle.is_running()).count();
         self.set.steps += running as u64;
         running
     }
 
     fn advance(&mut self, held: Option<usize>) -> Result<(), Failure> {
-        for (index, one) in self.set.grown.iter_mut().enumerate() {
+        for (index, member) in self.set.grown.iter_mut().enumerate() {
             self.sight.forget();
             let chooser = Grow {
                 block: self.block,
-                seen: &mut one.seen,
+                seen: &mut member.seen,
                 held: (held == Some(index)).then_some(self.block.held),
                 turned: self.turned,
-                stream: one.particle.stream,
+                stream: member.particle.stream,
                 sight: &mut self.sight,
             };
-            let paused = one.particle.advance(self.machine, self.block.task, self.seed, chooser)?;
-            one.barriers += usize::from(paused);
+            let paused = member.particle.advance(self.machine, self.block.task, self.seed, chooser)?;
+            member.barriers += usize::from(paused);
         }
         Ok(())
     }
@@ -300,14 +301,14 @@ impl Particles for Growing<'_, '_> {
             p.log_weight += p.log_step(beta, &score, beta);
             p.weighed = score;
         }
-        Ok(self.set.weights.read(self.set.grown.iter().map(|one| one.particle.log_weight)))
+        Ok(self.set.weights.read(self.set.grown.iter().map(|member| member.particle.log_weight)))
     }
 
     /// The last weights are those of [`Set::close`].
     fn is_low(&self) -> bool {
         let grown = &self.set.grown;
         self.set.weights.effective < LOW * grown.len() as f64
-            && grown.iter().any(|one| one.particle.is_running())
+            && grown.iter().any(|member| member.particle.is_running())
     }
 
     fn resample(&mut self, held: Option<usize>) -> Result<Option<usize>, Failure> {
@@ -320,7 +321,7 @@ impl Particles for Growing<'_, '_> {
             copy.copy_from(from, *lineages, *seed);
             *lineages += 1;
         }
-        set.grown.iter_mut().for_each(|one| one.particle.log_weight = 0.0);
+        set.grown.iter_mut().for_each(|member| member.particle.log_weight = 0.0);
         Ok(held)
     }
 }
@@ -328,12 +329,12 @@ impl Particles for Growing<'_, '_> {
 impl Set {
     /// The choices of the particle with the highest score, of those with a run that can be drawn; `None` without any.
     pub fn best(&self, block: &Block<'_>) -> Option<HashMap<u128, Value>> {
-        let possible = self.grown.iter().filter(|one| {
-            one.is_complete(block, one.seen.log_turn.is_some())
-                && !one.particle.record.score().is_impossible()
+        let possible = self.grown.iter().filter(|member| {
+            member.is_complete(block, member.seen.log_turn.is_some())
+                && !member.particle.record.score().is_impossible()
         });
-        let score = |one: &&Grown| one.particle.record.log_score();
-        possible.max_by(|a, b| score(a).total_cmp(&score(b))).map(|one| one.values(block))
+        let score = |member: &&Grown| member.particle.record.log_score();
+        possible.max_by(|a, b| score(a).total_cmp(&score(b))).map(|member| member.values(block))
     }
 
     /// Normalise the last log weights, which completes the estimate of the constant.

@@ -13,40 +13,40 @@ use niwaki_vm::value::{Value, log_density, same};
 const SHORT: i64 = 64;
 
 /// Values, each with the log probability of turning to it, nats.
-pub(super) type Others = Vec<(Value, f64)>;
+pub(super) type Alternatives = Vec<(Value, f64)>;
 
 /// The alternative values of a choice; empty for a single value or a continuous choice.
-pub(super) fn others(dist: &Dist, value: &Value) -> Result<Others, Fault> {
+pub(super) fn alternatives(dist: &Dist, value: &Value) -> Result<Alternatives, Fault> {
     let (listed, candidates): (bool, Vec<Value>) = match (dist.support().in_bounds(), value) {
         (_, Value::Bool(b)) => (true, vec![Value::Bool(!b)]),
         (Support::Integers { lo, hi: Some(hi) }, Value::Int(_)) if hi.saturating_sub(lo) < SHORT => {
-            (true, (lo..=hi).map(Value::Int).filter(|other| !same(other, value)).collect())
+            (true, (lo..=hi).map(Value::Int).filter(|candidate| !same(candidate, value)).collect())
         }
         (_, Value::Int(k)) => {
             (false, [k.checked_sub(1), k.checked_add(1)].into_iter().flatten().map(Value::Int).collect())
         }
         _ => return Ok(vec![]),
     };
-    let mut others = Vec::with_capacity(candidates.len());
-    for other in candidates {
-        let log = log_density(dist, &other)?;
+    let mut alternatives = Vec::with_capacity(candidates.len());
+    for candidate in candidates {
+        let log = log_density(dist, &candidate)?;
         if log > f64::NEG_INFINITY {
-            others.push((other, if listed { log } else { 0.0 }));
+            alternatives.push((candidate, if listed { log } else { 0.0 }));
         }
     }
-    let sum: f64 = others.iter().map(|(_, log)| log.exp()).sum();
-    others.iter_mut().for_each(|(_, log)| *log -= sum.ln());
-    others.retain(|(_, log)| log.is_finite());
-    Ok(others)
+    let sum: f64 = alternatives.iter().map(|(_, log)| log.exp()).sum();
+    alternatives.iter_mut().for_each(|(_, log)| *log -= sum.ln());
+    alternatives.retain(|(_, log)| log.is_finite());
+    Ok(alternatives)
 }
 
 /// Draw an alternative value.
-pub(super) fn draw(mut others: Others, rng: &mut Stream) -> Option<Value> {
-    if others.is_empty() {
+pub(super) fn draw(mut alternatives: Alternatives, rng: &mut Stream) -> Option<Value> {
+    if alternatives.is_empty() {
         return None;
     }
-    let shares: Vec<f64> = others.iter().map(|(_, log)| log.exp()).collect();
-    Some(others.swap_remove(index(&shares, rng.uniform())).0)
+    let shares: Vec<f64> = alternatives.iter().map(|(_, log)| log.exp()).collect();
+    Some(alternatives.swap_remove(index(&shares, rng.uniform())).0)
 }
 
 /// Log probability of the form of the move, in a particle's run: to grow a part with no choice turned, or to turn one, drawn
