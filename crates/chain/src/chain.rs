@@ -1,4 +1,4 @@
-//! One chain, and its settings.
+//! Chains and their settings.
 
 use crate::kernel::Kernel;
 use crate::leaf::block::Block;
@@ -21,23 +21,23 @@ use std::ops::{Deref, DerefMut};
 /// The settings of a chain.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// Decides every random number.
+    /// The seed of all random numbers.
     pub seed: u64,
-    /// How it proposes.
+    /// The kernel.
     pub kernel: Kernel,
-    /// How much of a run is executed again.
+    /// The strategy of re-execution.
     pub strategy: Strategy,
-    /// Proposals before the first sample, in which step sizes are adapted.
+    /// The number of proposals before the first sample, which adapt step sizes.
     pub warmup: u64,
-    /// Proposals between two samples; zero for none.
+    /// The number of proposals between two samples; 0 for no samples.
     pub thin: u64,
-    /// Most choices that the samples of a chain may hold together.
+    /// The most choices of all samples of a chain together.
     pub room: usize,
-    /// Most forward runs for a first state.
+    /// The most forward runs for a first state.
     pub tries: u64,
-    /// Powers of the score, falling from 1: more than one is parallel tempering.
+    /// Powers of the score, falling from 1; several powers mean parallel tempering.
     pub powers: Vec<f64>,
-    /// Proposals between two exchanges of states.
+    /// The number of proposals between two exchanges of states.
     pub every: u64,
 }
 
@@ -57,9 +57,9 @@ impl Default for Settings {
     }
 }
 
-/// One chain; it can go on at any time.
+/// A chain; it can resume at any time.
 pub struct Chain {
-    /// Its state, and what is noted of it.
+    /// The state and the statistics of the chain.
     pub(crate) walk: Walk,
     pub(crate) plan: Plan,
 }
@@ -80,14 +80,14 @@ impl DerefMut for Chain {
     }
 }
 
-/// Proposals between two calls of `watch`.
+/// The number of proposals between two calls of `watch`.
 const BLOCK: u64 = 1024;
 
 impl Chain {
-    /// The `number`-th chain of a seed, in its first state. With `known`, choices start with those values.
+    /// Start the `number`-th chain of a seed in a first state. `known` has first values of choices.
     ///
     /// # Errors
-    /// No possible first state, a kernel that makes no sense for the program, or a fault of the program.
+    /// No possible first state; a kernel that does not suit the program; a fault of the program.
     pub fn start(
         task: &Task,
         settings: &Settings,
@@ -100,10 +100,10 @@ impl Chain {
         Chain::at(task, settings, number, plan, state, &spreads)
     }
 
-    /// The `number`-th chain of a seed, in a state that is given, at its next place of a plan.
+    /// Start the `number`-th chain of a seed in a given state, at a place of a plan.
     ///
     /// # Errors
-    /// A kernel that makes no sense for the program.
+    /// A kernel that does not suit the program.
     pub fn at(
         task: &Task,
         settings: &Settings,
@@ -129,22 +129,22 @@ impl Chain {
         Ok(Chain { walk, plan })
     }
 
-    /// Its state alone.
+    /// The state without the statistics.
     pub fn into_state(self) -> State {
         self.walk.state
     }
 
-    /// Of each leaf that follows the gradient, in the order of the kernel: the counts of its trajectories,
-    /// the step for one coordinate, structures met and runs recorded.
+    /// Statistics of each gradient leaf, in the order of the kernel: the counts of its trajectories, the step size of a coordinate, the
+    /// numbers of structures and of recorded runs.
     pub fn trajectories(&self) -> impl Iterator<Item = (&TrajectoryCounts, f64, (u64, u64))> {
         self.plan.trajectories().map(|own| (&own.counts, own.step(), own.recorded()))
     }
 
-    /// Makes `steps` proposals. `watch` is called regularly with their number and the best score; when it returns
-    /// false, the chain stops.
+    /// Make `steps` proposals. `watch` is called regularly with the number of proposals and the best score; when it returns false,
+    /// the chain stops.
     ///
     /// # Errors
-    /// A fault of the program, or of a proposal; the chain is then in its last state before.
+    /// A fault of the program or of a proposal; the chain keeps its last state.
     pub fn advance(
         &mut self,
         task: &Task,
@@ -167,7 +167,7 @@ impl Chain {
         Ok(())
     }
 
-    /// Proposals up to the `until`-th.
+    /// Make proposals up to the `until`-th.
     pub(crate) fn propose(
         &mut self,
         task: &Task,

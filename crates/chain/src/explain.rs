@@ -1,4 +1,4 @@
-//! What each strategy does for one proposal: which activations it creates, invokes, unwinds into, skips and removes
+//! The work of each strategy for a proposal: the activations that it creates, invokes, unwinds into, skips and removes
 //! (dissertation figure 3.1, for any program).
 
 use crate::walk::proposal::{FromPrior, Move};
@@ -16,50 +16,50 @@ use niwaki_vm::machine::kept::{Change, Propose, Proposed, Step, Strategy};
 use niwaki_vm::value::Value;
 use std::collections::HashMap;
 
-/// What happened to an activation.
+/// An event of an activation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// It was created and run.
+    /// The activation was created and run.
     Created,
-    /// It was run from its start.
+    /// The activation was run from its start.
     Invoked,
-    /// It was run on from a call that had returned, or from the choice.
+    /// The activation resumed after a call that had returned, or at the choice.
     Unwound,
-    /// It was skipped: its inputs were unchanged.
+    /// The activation was skipped, because its inputs were unchanged.
     Skipped,
-    /// It was removed.
+    /// The activation was removed.
     Removed,
 }
 
-/// One run: the strategy, and what happened in order, by place among the activations.
+/// A run: the strategy, and its events in order, by place among the activations.
 #[derive(Clone, Debug)]
 pub struct Run {
     /// The strategy.
     pub strategy: Strategy,
-    /// What happened.
+    /// The events.
     pub steps: Vec<(Event, usize)>,
-    /// Whether the run came to its end (it may meet a score of minus infinity before).
+    /// Whether the run ended; it stops early at a score of minus infinity.
     pub is_complete: bool,
 }
 
-/// One proposal under every strategy.
+/// A proposal under every strategy.
 #[derive(Clone, Debug)]
 pub struct Explained {
     /// Activations before and after, each before its callees; `depth` is its depth in the call tree.
     pub activations: Vec<Activation>,
-    /// Which of them holds the choice.
+    /// The activation that holds the choice.
     pub home: usize,
     /// The choice's readable address.
     pub path: String,
-    /// Its value before.
+    /// The previous value.
     pub old: Value,
-    /// The value proposed.
+    /// The proposed value.
     pub new: Value,
     /// The runs.
     pub runs: Vec<Run>,
 }
 
-/// What happened, in order, by key of the activation.
+/// Events in order, by key of the activation.
 type Keyed = Vec<(Event, u128)>;
 
 struct Draws {
@@ -81,14 +81,14 @@ impl Propose<f64> for Draws {
     }
 }
 
-/// Proposals that may draw the old value again before one is given up.
+/// The most proposals that may draw the old value again.
 const DRAWS: u64 = 200;
 
-/// One proposal from the prior to the choice at `address` (readable, or a pattern: the first that matches), in the first
-/// state of a seed, under each strategy; all of them are undone.
+/// Propose a value from the prior for the choice at `address`, in the first state of a seed, under each strategy. `address` is
+/// readable, or a pattern whose first match counts. All proposals are undone.
 ///
 /// # Errors
-/// No such choice, one that has no other value, no first state, or a fault of the program.
+/// No such choice; a choice with a single value; no first state; a fault of the program.
 pub fn explain(task: &Task, seed: u64, tries: u64, address: &str) -> Result<Explained, Failure> {
     let program = &*task.program;
     let streams = Streams::new(seed, 0);

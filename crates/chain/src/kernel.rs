@@ -1,7 +1,7 @@
 //! Kernels as values: a tree whose leaves propose and whose branches choose the next leaf.
 //!
-//! One *application* of `cycle(a, b)` is one of `a` and then one of `b`; a chain applies its kernel again and again, and
-//! counts proposals, so it may stop in the middle of a cycle and go on there.
+//! An *application* of `cycle(a, b)` is an application of `a` and then of `b`. A chain applies its kernel repeatedly and counts
+//! proposals, so it may stop in the middle of a cycle and resume there.
 
 use crate::leaf::Proposer;
 use niwaki_run::select::Selection;
@@ -9,34 +9,34 @@ use niwaki_run::select::Selection;
 /// A Markov kernel.
 #[derive(Clone, Debug)]
 pub enum Kernel {
-    /// One proposal.
+    /// A leaf: a single proposal.
     Leaf(Proposer),
-    /// One after the other.
+    /// All kernels in order.
     Cycle(Vec<Kernel>),
-    /// One of several, by weight.
+    /// A random kernel, drawn by weight.
     Mixture(Vec<(f64, Kernel)>),
-    /// One kernel, a number of times.
+    /// A kernel, repeated.
     Repeat(u64, Box<Kernel>),
-    /// Restricted to some choices, or with other selection weights.
+    /// A kernel restricted to a selection of choices, or with other selection weights.
     On(Selection, Box<Kernel>),
-    /// The score's power goes from `start` to `end`, geometrically, in `steps` proposals.
+    /// An annealed kernel: the power of the score changes geometrically from `start` to `end` in `steps` proposals.
     Anneal {
-        /// First power.
+        /// The first power.
         start: f64,
-        /// Last power.
+        /// The last power.
         end: f64,
-        /// Proposals from the first to the last.
+        /// The number of proposals from the first to the last power.
         steps: u64,
-        /// What is annealed.
+        /// The annealed kernel.
         kernel: Box<Kernel>,
     },
 }
 
 impl Kernel {
-    /// One choice, from its own distribution.
+    /// Propose a value for a single choice from its prior.
     pub const PRIOR: Kernel = Kernel::Leaf(Proposer::Prior {});
 
-    /// Whether the kernel, or one that it is made of, is of a kind.
+    /// Whether the kernel or a part of it satisfies a predicate.
     pub fn any(&self, is: &impl Fn(&Kernel) -> bool) -> bool {
         is(self)
             || match self {

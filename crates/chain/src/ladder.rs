@@ -2,7 +2,7 @@
 //!
 //! Rung i follows prior * exp(beta_i log score); neighbours exchange states with probability
 //! min(1, exp((beta_i - beta_j)(log score_j - log score_i))). The prior is not tempered. A search without tempering is a
-//! ladder of one rung.
+//! ladder with a single rung.
 
 use crate::walk::accept::log_exchange;
 use crate::walk::streams::Streams;
@@ -14,15 +14,15 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
 
-/// Rungs have chain numbers this far apart.
+/// The distance between the chain numbers of neighbouring rungs.
 const APART: u64 = 1 << 40;
 
-/// Most proposals between two borders of one chain.
+/// The most proposals between two borders of a chain.
 const BLOCK: u64 = 1024;
-/// About the time between two borders where proposals are slow.
+/// The approximate time between two borders if proposals are slow.
 const TIME: Duration = Duration::from_millis(20);
 
-/// How many proposals are made between two borders.
+/// The number of proposals between two borders.
 struct Pace(u64);
 
 impl Default for Pace {
@@ -32,7 +32,7 @@ impl Default for Pace {
 }
 
 impl Pace {
-    /// Makes so many; fewer the next time, where they took long.
+    /// Run up to that number of proposals, and reduce the number if they took long.
     fn keep<T>(&mut self, make: impl FnOnce(u64) -> T) -> T {
         let began = Instant::now();
         let made = make(self.0);
@@ -49,19 +49,19 @@ pub struct Ladder {
     number: u64,
     every: u64,
     streams: Streams,
-    /// Exchanges tried and accepted between each rung and the next.
+    /// The number of tried and of accepted exchanges between each rung and the next.
     pub exchanges: Vec<(u64, u64)>,
-    /// The number of proposals to which it is on its way.
+    /// The goal: the number of proposals after which the ladder stops.
     pub(super) end: u64,
     /// Invalid runs, by place.
     pub(super) invalid: Counts,
 }
 
 impl Ladder {
-    /// The `number`-th ladder of a seed.
+    /// Start the `number`-th ladder of a seed.
     ///
     /// # Errors
-    /// As for [`Chain::start`].
+    /// The errors of [`Chain::start`].
     pub fn start(
         task: &Task,
         settings: &Settings,
@@ -71,10 +71,10 @@ impl Ladder {
         Ladder::start_at(task, settings, number, |_| known)
     }
 
-    /// As [`Ladder::start`], with first values for each rung.
+    /// Like [`Ladder::start`], with first values for each rung.
     ///
     /// # Errors
-    /// As for [`Chain::start`].
+    /// The errors of [`Chain::start`].
     pub fn start_at<'a>(
         task: &Task,
         settings: &Settings,
@@ -88,7 +88,7 @@ impl Ladder {
         Ok(ladder)
     }
 
-    /// The `number`-th ladder of a seed, before its chains.
+    /// Create the `number`-th ladder of a seed without chains.
     pub(super) fn without_rungs(settings: &Settings, number: u64) -> Ladder {
         Ladder {
             rungs: vec![],
@@ -101,10 +101,10 @@ impl Ladder {
         }
     }
 
-    /// Adds the next rung, which `make` creates of its settings and its number.
+    /// Add the next rung. `make` creates its chain from settings and a number.
     ///
     /// # Errors
-    /// Those of `make`.
+    /// The errors of `make`.
     pub(super) fn add(
         &mut self,
         rung: usize,
@@ -121,10 +121,10 @@ impl Ladder {
         Ok(())
     }
 
-    /// Makes `steps` proposals on each rung; as for [`Chain::advance`].
+    /// Make `steps` proposals on each rung, like [`Chain::advance`].
     ///
     /// # Errors
-    /// As for [`Chain::advance`].
+    /// The errors of [`Chain::advance`].
     pub fn advance(
         &mut self,
         task: &Task,
@@ -139,7 +139,7 @@ impl Ladder {
     /// ladder stops.
     ///
     /// # Errors
-    /// As for [`Chain::advance`].
+    /// The errors of [`Chain::advance`].
     pub(super) fn go_on(&mut self, task: &Task, watch: &mut dyn FnMut(&Self) -> bool) -> Result<(), Failure> {
         let mut pace = Pace::default();
         while self.visit() < self.end {

@@ -1,4 +1,4 @@
-//! Several chains of one seed, in parallel. Each chain is the same on any number of threads.
+//! Several chains of a seed, in parallel. Each chain is the same on any number of threads.
 
 use crate::Settings;
 use crate::ladder::Ladder;
@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::sync::Mutex;
 use std::sync::PoisonError;
 
-/// By how much counts by place have grown.
+/// The increase of counts by place.
 fn more(counts: Counts, before: &Counts) -> Counts {
     let before: BTreeMap<&Place, u64> = before.iter().map(|(place, count)| (place, count.runs)).collect();
     let grown = |(place, count): (Place, Count)| {
@@ -21,17 +21,17 @@ fn more(counts: Counts, before: &Counts) -> Counts {
     counts.into_iter().map(grown).filter(|(_, count)| count.runs > 0).collect()
 }
 
-/// Several chains.
+/// A set of chains.
 pub struct Chains {
     /// The chains.
     pub chains: Vec<Ladder>,
 }
 
 impl Chains {
-    /// `count` chains in their first states.
+    /// Start `count` chains in first states.
     ///
     /// # Errors
-    /// As for [`Ladder::start`].
+    /// The errors of [`Ladder::start`].
     pub fn start(
         task: &Task,
         settings: &Settings,
@@ -41,10 +41,10 @@ impl Chains {
         Chains::start_from(task, settings, count, known, None)
     }
 
-    /// The same, or where a checkpoint has data of a chain, that chain.
+    /// Like [`Chains::start`], but restore the chains that the checkpoint holds.
     ///
     /// # Errors
-    /// As for [`Chains::start`]; data that is not of such a chain.
+    /// The errors of [`Chains::start`]; data of another search.
     pub fn start_from(
         task: &Task,
         settings: &Settings,
@@ -70,11 +70,11 @@ impl Chains {
         Ok(Chains { chains })
     }
 
-    /// Makes `steps` proposals in each. `watch` is called with the proposals of all chains so far and the best score;
-    /// when it returns false, the chains stop. Returns whether they were stopped.
+    /// Make `steps` proposals in each chain. `watch` is called with the number of proposals of all chains and the best score; when it
+    /// returns false, the chains stop. Returns whether `watch` stopped the chains.
     ///
     /// # Errors
-    /// As for [`Ladder::advance`]: the failure of the first chain that failed.
+    /// The errors of [`Ladder::advance`], of the first chain that fails.
     pub fn advance(
         &mut self,
         task: &Task,
@@ -85,21 +85,21 @@ impl Chains {
         self.go_on(task, watch, None)
     }
 
-    /// From now on each chain is on its way to so many more proposals.
+    /// Increase the goal of each chain by a number of proposals.
     pub fn aim(&mut self, steps: u64) {
         self.chains.iter_mut().for_each(|chain| chain.end = chain.visit() + steps);
     }
 
-    /// The same for chains that have made none yet.
+    /// Increase the goal of chains without proposals.
     pub fn aim_anew(&mut self, steps: u64) {
         self.chains.iter_mut().filter(|chain| chain.visit() == 0).for_each(|chain| chain.end = steps);
     }
 
-    /// Makes the proposals that are left in each chain; as for [`Chains::advance`]. A chain is a part of the checkpoint: it is
-    /// stored before the first proposal where it has made some, at borders when it is asked for, and at the end.
+    /// Make the remaining proposals of each chain, like [`Chains::advance`]. Each chain is a part of the checkpoint. A chain is stored
+    /// before its first new proposal if it has proposals, at borders on request, and at the end.
     ///
     /// # Errors
-    /// As for [`Chains::advance`].
+    /// The errors of [`Chains::advance`].
     pub fn go_on(
         &mut self,
         task: &Task,

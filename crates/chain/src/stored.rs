@@ -1,8 +1,8 @@
-//! A chain as data, at a border between two proposals, and a chain that goes on from it with the same bits.
+//! Chains as data, at a border between two proposals. A restored chain resumes with the same bits.
 //!
-//! The run is stored as the values of its choices, in the order of their numbers, and is made again from them: scores and
-//! sketches are exact, so they come back to the bit, and this is checked. Beside it stands what the proposals so far have
-//! taught: steps, scales, the place in the kernel, counts, the best state, the samples.
+//! The data of the run are the values of its choices, in the order of their numbers. Restoring runs the program with these values:
+//! scores and sketches are exact, so they are equal to the bit, which is checked. The data also have the results of the proposals
+//! so far: step sizes, scales, the place in the kernel, counts, the best state, the samples.
 
 use crate::ladder::Ladder;
 use crate::plan;
@@ -22,10 +22,10 @@ use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// A state.
+/// A state as data.
 #[derive(Serialize, Deserialize)]
 pub struct StoredState {
-    /// Its choices, in the order of their numbers.
+    /// The choices, in the order of their numbers.
     choices: Log,
     #[serde(with = "bits")]
     log_prior: f64,
@@ -35,7 +35,7 @@ pub struct StoredState {
 }
 
 impl StoredState {
-    /// Of a state without an open transaction.
+    /// Store a state without an open transaction.
     pub fn of(state: &State, program: &Program) -> StoredState {
         StoredState {
             choices: state.choices(program).collect(),
@@ -45,10 +45,10 @@ impl StoredState {
         }
     }
 
-    /// The state.
+    /// Restore the state.
     ///
     /// # Errors
-    /// A fault of the program; choices that are not those of a run, or have other scores than they had.
+    /// A fault of the program; choices that do not belong to a run, or whose scores have changed.
     pub fn state(&self, task: &Task) -> Result<State, Failure> {
         let choices: Vec<_> =
             self.choices.entries().into_iter().map(|entry| (entry.address(), entry.value)).collect();
@@ -64,7 +64,7 @@ impl StoredState {
     }
 }
 
-/// A chain; `S` are its samples.
+/// A chain as data; `S` are its samples.
 #[derive(Serialize, Deserialize)]
 struct StoredChain<S> {
     state: StoredState,
@@ -79,7 +79,7 @@ struct StoredChain<S> {
     plan: plan::Stored,
 }
 
-/// A ladder of chains, on its way to so many proposals.
+/// A ladder of chains as data, with its goal of proposals.
 #[derive(Serialize, Deserialize)]
 pub(crate) struct StoredLadder<S> {
     rungs: Vec<StoredChain<S>>,
@@ -104,7 +104,7 @@ impl Chain {
         }
     }
 
-    /// The `number`-th chain of a seed, from its data.
+    /// Restore the `number`-th chain of a seed.
     fn restored(
         task: &Task,
         settings: &Settings,
@@ -130,16 +130,16 @@ impl Chain {
 }
 
 impl Ladder {
-    /// Its data; `invalid` are the invalid runs that it counted so far.
+    /// Store the ladder. `invalid` are the invalid runs counted so far.
     pub(super) fn stored(&self, program: &Program, invalid: Counts) -> StoredLadder<Vec<&Run>> {
         let rungs = self.rungs.iter().map(|rung| rung.stored(program)).collect();
         StoredLadder { rungs, exchanges: self.exchanges.clone(), end: self.end, invalid }
     }
 
-    /// The `number`-th ladder of a seed, from its data.
+    /// Restore the `number`-th ladder of a seed.
     ///
     /// # Errors
-    /// As for [`StoredState::state`]; data of another kernel.
+    /// The errors of [`StoredState::state`]; data of another kernel.
     pub(super) fn restored(
         task: &Task,
         settings: &Settings,

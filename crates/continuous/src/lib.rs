@@ -1,9 +1,9 @@
-//! Inference over any log density of real coordinates: it knows no programs.
+//! Inference over any log density of real coordinates. Programs are in other crates.
 //!
-//! * [`hamiltonian`]: chains that follow the slope;
-//! * [`variational`]: normals near the density.
+//! * [`hamiltonian`]: chains along the gradient;
+//! * [`variational`]: normal approximations of the density.
 //!
-//! Not here: programs, how a gradient is computed.
+//! The computation of gradients is in `niwaki-grad`.
 
 pub mod hamiltonian;
 pub mod variational;

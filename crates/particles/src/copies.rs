@@ -1,40 +1,40 @@
-//! The copies of a resampling. They are made when the particles run again, each by the thread that runs it.
+//! Copies of a resampling. Each copy is made when the particles run again, by the thread that runs it.
 
 use niwaki_propose::particle::Particle;
 use niwaki_run::resampling::{further_copies, pair};
 use std::collections::{HashSet, VecDeque};
 
-/// At least this many copies of one parent are given to another thread in advance.
+/// The smallest number of copies of a parent that move to another thread in advance.
 const FEW: usize = 4;
 
-/// The copies that are not made yet.
+/// Pending copies.
 #[derive(Default)]
 pub(super) struct Copies {
-    /// How often each particle survives; empty where no copy waits to be made.
+    /// The number of survivors of each particle; empty without pending copies.
     counts: Vec<usize>,
-    /// Parent and index of each copy, parents ascending.
+    /// The parent and the index of each copy, by ascending parent.
     moves: Vec<(usize, usize)>,
-    /// The thread that is to run each copy.
+    /// The thread of each copy.
     threads: Vec<usize>,
-    /// The lineage of the first copy; the others have the next ones, in the order of `moves`.
+    /// The lineage of the first copy; further copies have the next lineages, in the order of `moves`.
     lineage: u64,
 }
 
-/// Who descends from whom.
+/// The ancestry of particles.
 pub(super) struct Ancestry {
-    /// The particle index at the first barrier that each particle descends from.
+    /// The ancestor of each particle: its index at the first barrier.
     pub first: Vec<usize>,
-    /// The lineages so far.
+    /// The number of lineages so far.
     pub lineages: u64,
 }
 
 impl Ancestry {
-    /// That of so many particles, each its own ancestor.
+    /// Start the ancestry of `n` particles: each particle is its own ancestor.
     pub fn of(n: usize) -> Ancestry {
         Ancestry { first: (0..n).collect(), lineages: n as u64 }
     }
 
-    /// How many particles of the first barrier they descend from.
+    /// The number of ancestors at the first barrier.
     pub fn ancestors(&self) -> usize {
         self.first.iter().collect::<HashSet<_>>().len()
     }
@@ -49,7 +49,7 @@ pub(super) struct Indexed<'a> {
 }
 
 impl Copies {
-    /// Particle `i` is to survive `counts[i]` times. The ancestry becomes that of the survivors.
+    /// Register a resampling in which particle `i` survives `counts[i]` times, and update the ancestry.
     pub fn plan(counts: &[usize], ancestry: &mut Ancestry) -> Copies {
         let moves = further_copies(counts);
         let lineage = ancestry.lineages;
@@ -66,8 +66,7 @@ impl Copies {
         }
     }
 
-    /// Decides which thread runs each copy: that of its parent, or another one where a large family would give this
-    /// thread too much work.
+    /// Assign each copy to a thread: the thread of its parent, or another thread if a large family would overload it.
     pub fn share_out(&mut self, particles: &mut [Particle], threads: usize) {
         let home = |index: usize| particles[index].home % threads;
         let mut load = vec![0; threads];
@@ -117,17 +116,17 @@ impl Copies {
         }
     }
 
-    /// How often a particle is there once all copies are made.
+    /// The number of survivors of a particle.
     pub fn count(&self, index: usize) -> usize {
         self.counts.get(index).copied().unwrap_or(1)
     }
 
-    /// Parent, index and lineage of each.
+    /// The parent, the index and the lineage of each copy.
     pub fn with_lineages(&self) -> impl Iterator<Item = (usize, usize, u64)> {
         self.moves.iter().zip(self.lineage..).map(|(&(parent, to), lineage)| (parent, to, lineage))
     }
 
-    /// Makes all of them.
+    /// Make all pending copies.
     pub fn make(&mut self, particles: &mut [Particle], seed: u64) {
         for (parent, to, lineage) in self.with_lineages() {
             let [parent, child] = pair(particles, parent, to);
@@ -181,13 +180,13 @@ impl Copies {
         lists
     }
 
-    /// Forgets the copies after they were made.
+    /// Clear the copies after they were made.
     pub fn clear(&mut self) {
         *self = Copies::default();
     }
 }
 
-/// Makes the copies of a batch.
+/// Make the copies of a batch.
 pub(super) fn copy(batch: &mut [Indexed<'_>], seed: u64) {
     let mut parent = 0;
     for at in 0..batch.len() {

@@ -1,5 +1,5 @@
-//! Which results are really different: those of which no other shares more than half of their choices, a choice being
-//! an (address, value) pair. Order choices do not count.
+//! Distinct results: results that share at most half of their choices with any other result. A choice is an (address, value)
+//! pair. Order choices do not count.
 
 use niwaki_run::log::{Entry, Log};
 use niwaki_vm::value::Value;
@@ -12,7 +12,7 @@ pub struct Choices {
 }
 
 impl Choices {
-    /// The choices of some runs.
+    /// Collect the choices of runs.
     pub fn of<'a>(logs: impl Iterator<Item = &'a Log>) -> Choices {
         let mut numbers: HashMap<(u128, u64), u32> = HashMap::new();
         let mut number = |entry: &Entry| {
@@ -61,7 +61,7 @@ impl Choices {
         !self.has_most_of(a, b) && !self.has_most_of(b, a)
     }
 
-    /// How many runs there are of which no other has more than half of the choices.
+    /// The number of distinct runs.
     pub fn unique(&self) -> usize {
         let n = self.runs.len();
         // Copies are usually next to each other, so neighbours are compared first.

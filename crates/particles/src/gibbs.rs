@@ -60,32 +60,32 @@ use niwaki_run::weights::Normalised;
 use niwaki_run::{Failure, Task};
 use niwaki_vm::machine::Machine;
 
-/// The runs that a chain of whole runs went through.
+/// The result of a chain of whole runs.
 #[derive(Default)]
 pub struct Chain {
-    /// Its state after each sweep, from the first one that had a possible run; weights are equal.
+    /// The state after each sweep, from the first possible run on; weights are equal.
     pub states: Vec<Run>,
-    /// How many moves were tried: ancestors drawn for the held run, or proposals.
+    /// The number of tried moves: ancestors drawn for the held run, or proposals.
     pub tries: usize,
-    /// How many moves changed the state: ancestors of another particle, or accepted proposals.
+    /// The number of moves that changed the state: different ancestors, or accepted proposals.
     pub moves: usize,
-    /// The share of choices that each of these sweeps renewed.
+    /// The share of renewed choices of each sweep.
     pub renewed: Vec<f64>,
     /// Populations in which every particle became impossible; their estimate is zero, and counts.
     pub died: usize,
     /// Log of the mean of the populations' estimates of the evidence, nats; where they are independent of the chain,
     /// at power 1 and not stopped.
     pub log_evidence: Option<f64>,
-    /// Whether it was stopped before the last sweep.
+    /// Whether `watch` stopped the chain before the last sweep.
     pub interrupted: bool,
 }
 
-/// What happens to the past of the held run at a resampling.
+/// The treatment of the past of the held run at a resampling.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ancestors {
-    /// It is kept.
+    /// Keep the past.
     Kept,
-    /// It is drawn anew.
+    /// Redraw the past.
     Sampled,
 }
 
@@ -99,7 +99,7 @@ pub(super) fn draw_index(weights: &Normalised, seed: u64, sweep: usize) -> usize
     weights.index(Reserved::Sweep.stream(seed, sweep as u128, 1).uniform())
 }
 
-/// `sweeps` sweeps of particle Gibbs. It starts from a run with the choices `from`, or from one of SMC's final set.
+/// Run `sweeps` sweeps of particle Gibbs. The chain starts from a run with the choices `from`, or from a run of SMC's final set.
 /// `watch` is called after each barrier; when it returns false, the sweeps so far are returned.
 ///
 /// # Errors
@@ -192,7 +192,7 @@ fn first_run(
     }
 }
 
-/// One sweep: SMC with a run held, and a draw from its final set. `None` when it was stopped.
+/// Run a sweep: SMC with a held run, and a draw from its final set. `None` if `watch` stopped it.
 fn conditional(
     task: &Task,
     settings: &Settings,
@@ -214,7 +214,7 @@ fn conditional(
     Ok(Some(Run { log_weight: 0.0, ..run_of(population.settled().swap_remove(index)) }))
 }
 
-/// A population of which one particle follows the present run of a chain.
+/// A population with a particle that follows the present run of a chain.
 struct Conditional<'a> {
     population: Population<'a>,
     task: &'a Task,
@@ -222,7 +222,7 @@ struct Conditional<'a> {
     /// The run, from barrier to barrier.
     segments: Vec<&'a [Step]>,
     ancestors: Ancestors,
-    /// Counts the ancestors that are drawn.
+    /// The number of drawn ancestors.
     chain: &'a mut Chain,
 }
 
@@ -270,7 +270,7 @@ impl Particles for Conditional<'_> {
     }
 }
 
-/// Draws the particle whose past the held run gets; returns its index.
+/// Draw a new past for the held run; return the index of the particle that gives it.
 fn sample_ancestor(
     population: &mut Population<'_>,
     segments: &[&[Step]],

@@ -1,4 +1,4 @@
-//! Sequential Monte Carlo over the barriers that `emit`, `factor` and `observe` make.
+//! Sequential Monte Carlo. The barriers are the sites of `emit`, `factor` and `observe`.
 //!
 //! With `s(r_n)` the score of a run at its n-th barrier and `T` the power, particles target
 //! `F_n = p_n(x_n) s(r_n)^T` (dissertation 5.3, with `T = 1`). A step of a [`sweep`](niwaki_propose::sweep):
@@ -6,7 +6,7 @@
 //! 1. *Advance*: each particle that has not ended runs to its next barrier (`particle`). After each barrier
 //!    and whenever a future returns, the order policy picks the future that runs next.
 //!    Particles at the same place run together (`in_lanes`).
-//! 2. *Weigh* (`weights`): `w *= (s(r_n) / s(r_{n-1}))^T`. One that has ended carries its last score. Of choices that a
+//! 2. *Weigh* (`weights`): `w *= (s(r_n) / s(r_{n-1}))^T`. A particle that has ended keeps its last score. For choices that a
 //!    proposal drew since the last barrier ([`Proposal`](niwaki_propose::proposal::Proposal)) `p(x) / q(x)` counts too, which is
 //!    not raised to a power. A forecast of what is still to come may count on the way ([`look_ahead`](niwaki_propose::look_ahead)).
 //! 3. *Resample* ([`resampling`](niwaki_run::resampling)): at every barrier, or when the effective sample size is low; weights

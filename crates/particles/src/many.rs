@@ -1,4 +1,4 @@
-//! Several independent populations as one search, in parallel or until a time limit.
+//! Independent populations as a single search, in parallel or until a time limit.
 //!
 //! Population `m` of `N_m` particles estimates the normalising constant by `Z_m` without bias, so the searches
 //! together estimate it by `Z = sum N_m Z_m / sum N_m`, and a particle of weight `w` in its population weighs
@@ -50,17 +50,17 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// Particles of the first pilot.
+/// The number of particles of the first pilot.
 const PILOT: usize = 32;
 /// How much larger a pilot may be than the one before it: the measured cost of a particle holds for similar sizes.
 const GROWTH: f64 = 8.0;
-/// Share of the time that the last pilot is planned to take.
+/// The planned share of the time of the last pilot.
 const PILOT_SHARE: f64 = 0.1;
 /// Share of the time after which a pilot is stopped: its cost is then at least this.
 const PILOT_LIMIT: f64 = 0.25;
 /// Share of the time left that one population is planned to take: three are then complete even if they cost a tenth more.
 const SHARE: f64 = 0.3;
-/// A population has at least this many particles.
+/// The smallest number of particles of a population.
 const LEAST: usize = 16;
 
 /// The seed of the `number`-th population; of the first, the seed itself.
@@ -209,12 +209,12 @@ fn without_evidence(result: Result) -> Result {
     Result { log_normaliser: None, log_evidence: None, ..result }
 }
 
-/// A population that lived, among several.
+/// A surviving population.
 #[derive(Clone, Copy, Debug)]
 pub struct Share {
-    /// How many particles it has.
+    /// The number of particles.
     pub size: usize,
-    /// Its own estimate, as [`Result::log_normaliser`], nats.
+    /// The estimate of this population, like [`Result::log_normaliser`], nats.
     pub log_normaliser: Option<f64>,
     /// Log of the sum of its particles' weights.
     pub log_sum: f64,
@@ -230,7 +230,7 @@ impl Share {
 /// The populations that lived as one, of `total` particles with those that died: the log of their common estimate, and what
 /// is added to the log weights of each population.
 pub fn united(lived: &[Share], total: usize) -> (Option<f64>, Vec<f64>) {
-    let part = |one: &Share| one.log_normaliser.map(|own| own + (one.size as f64 / total as f64).ln());
+    let part = |share: &Share| share.log_normaliser.map(|log| log + (share.size as f64 / total as f64).ln());
     let all = lived.iter().map(part).collect::<Option<Vec<f64>>>().map(|logs| log_sum_exp(logs.into_iter()));
     let shift = |one: &Share| match (one.log_normaliser, all) {
         (Some(own), Some(all)) => own - all + (one.size as f64).ln() - one.log_sum,
@@ -239,7 +239,7 @@ pub fn united(lived: &[Share], total: usize) -> (Option<f64>, Vec<f64>) {
     (all, lived.iter().map(shift).collect())
 }
 
-/// The populations as one.
+/// Merge the populations.
 fn combine(
     plan: &[usize],
     results: Vec<std::result::Result<Result, Failure>>,
@@ -261,13 +261,14 @@ fn combine(
     }
     let total = plan.iter().sum();
     if plan.len() == 1 || lived.is_empty() {
-        return lived.pop().map(|one| one.1).ok_or_else(|| died.unwrap_or_else(Failure::no_start));
+        return lived.pop().map(|(_, result)| result).ok_or_else(|| died.unwrap_or_else(Failure::no_start));
     }
     let shares: Vec<Share> = lived.iter().map(|(size, one)| Share::of(*size, one)).collect();
     let (log_normaliser, shifts) = united(&shares, total);
     let mut whole = Result {
         log_normaliser,
-        log_evidence: log_normaliser.filter(|_| lived.iter().all(|(_, one)| one.log_evidence.is_some())),
+        log_evidence: log_normaliser
+            .filter(|_| lived.iter().all(|(_, result)| result.log_evidence.is_some())),
         interrupted,
         plan: plan.to_vec(),
         died: deaths,

@@ -1,5 +1,4 @@
-//! Moves of one particle. A particle that still runs is moved by following its partial run again, one that has ended by a
-//! chain over its kept run.
+//! Moves of a particle. A running particle moves by a rerun of its partial run, an ended particle by a chain over its kept run.
 
 use crate::partial_run::{Choice, Densities, FollowSettings, PartialRun};
 use crate::rejuvenation::{Mover, Round};
@@ -30,23 +29,23 @@ use std::collections::HashMap;
 /// Visits of a particle's stream, four for each move: the model's own choices and the order have the first two.
 const VISITS: u64 = 4;
 
-/// A particle that still runs, while it is moved.
+/// A move of a running particle.
 struct Moving<'a, 'm> {
     particle: &'a mut Particle,
     now: PartialRun,
     machine: &'a mut Machine<'m>,
     round: &'a Round<'a>,
     with: FollowSettings<'a>,
-    /// Which of a choice's selection weights counts; all choices weigh the same where none does.
+    /// The number of the selection weight that counts; `None` for equal weights.
     weight: Option<usize>,
     /// The first visit of this move.
     visit: u64,
-    /// Which choice is changed, and whether the change is kept.
+    /// The random numbers that pick the choice and decide on the acceptance.
     rng: Stream,
     count: Count,
 }
 
-/// Moves a particle that still runs. Its batch has its own leaves, which do not adapt.
+/// Move a running particle. Its batch has separate leaves, which do not adapt.
 pub(super) fn move_running(
     p: &mut Particle,
     machine: &mut Machine<'_>,

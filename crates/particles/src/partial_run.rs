@@ -1,5 +1,5 @@
-//! A partial run: the choices and barriers of a run up to a barrier, or to its end. It can be followed again, by another
-//! particle or with other values.
+//! Partial runs: the choices and barriers of a run up to a barrier or to its end. A partial run can be rerun by another particle or
+//! with other values.
 //!
 //! Other values must not change the *skeleton*: which futures could run at each pick, the address of each
 //! barrier, and where each future is suspended at the end. Under one skeleton the order policy gives equal order choices
@@ -41,7 +41,7 @@ pub(crate) struct Choice {
     pub weights: Box<[u64]>,
 }
 
-/// One step of a run.
+/// A step of a run.
 #[derive(Clone, Debug)]
 pub(crate) enum Step {
     /// A future ran: its path; where several could, its place among them and a hash of their paths.
@@ -67,7 +67,7 @@ pub(super) struct PartialRun {
     pub state: State,
 }
 
-/// How a run is followed.
+/// The settings of a rerun.
 #[derive(Clone, Copy)]
 pub(super) struct FollowSettings<'a> {
     pub task: &'a Task,
@@ -87,7 +87,7 @@ pub(super) struct Densities {
 }
 
 impl PartialRun {
-    /// The run with the choices of a log, to its `barriers`-th barrier or to its end. Futures run in the order of the log's
+    /// Rerun the choices of a log, to the `barriers`-th barrier or to the end. Futures run in the order of the log's
     /// order choices; where one is missing, the order policy picks one by a number between 0 and 1 from `draw`. `None` where
     /// the run is impossible.
     ///
@@ -101,15 +101,15 @@ impl PartialRun {
         draw: &mut dyn FnMut() -> f64,
     ) -> Result<Option<PartialRun>, Failure> {
         let values = by_address(entries);
-        let otherwise = Refuse("start from a run of the same model with the same arguments");
-        let mut chooser = Known { values: Some(&values), otherwise };
+        let fallback = Refuse("start from a run of the same model with the same arguments");
+        let mut chooser = Known { values: Some(&values), fallback };
         let mut next = picks(entries);
         let mut pick = |state: &State, past: &Past| next(state).unwrap_or_else(|| past.pick(state, draw()));
         PartialRun::run(with, machine, &mut chooser, None, &mut pick, barriers)
     }
 
-    /// The same run with what `propose` gives for its choices; choices that were not there before are drawn from `fresh`.
-    /// `None` where it has another skeleton, or is impossible.
+    /// Rerun with the values that `propose` gives; new choices are drawn from `fresh`. `None` if the rerun has a different skeleton or is
+    /// impossible.
     ///
     /// # Errors
     /// A fault of the program or of `propose`.
@@ -134,7 +134,7 @@ impl PartialRun {
         }
     }
 
-    /// Runs from the start to the `barriers`-th barrier or to the end; with the skeleton of `before`, where it is given.
+    /// Run from the start to the `barriers`-th barrier or to the end. With `before`, the run must have the skeleton of `before`.
     fn run(
         with: FollowSettings<'_>,
         machine: &mut Machine<'_>,
@@ -170,7 +170,7 @@ impl PartialRun {
         Ok(Some(PartialRun { steps, log_prior, log_factors, state }))
     }
 
-    /// Its choices, in order; those of order are not among them.
+    /// The choices in order, without order choices.
     pub fn choices(&self) -> impl Iterator<Item = &Choice> {
         self.steps.iter().filter_map(Step::choice)
     }
@@ -206,7 +206,7 @@ impl PartialRun {
         (gone, come)
     }
 
-    /// Its choices and picks as a log.
+    /// The choices and order choices as a log.
     pub fn log(&self) -> Log {
         let mut log = Log::default();
         for step in &self.steps {
@@ -243,7 +243,7 @@ impl Step {
     }
 }
 
-/// Records the steps of a run.
+/// Answers that record the steps of a run.
 struct Recorder<'a, C> {
     chooser: &'a mut C,
     with: FollowSettings<'a>,
@@ -344,7 +344,7 @@ impl<C: Chooser> Answers<f64> for Recorder<'_, C> {
     }
 }
 
-/// Gives choices the values that they had before, or what is proposed for them; those that are new are drawn.
+/// Chooser of a rerun: previous or proposed values; new choices are drawn.
 struct Changed<'a, P> {
     before: &'a PartialRun,
     at: usize,
@@ -377,7 +377,7 @@ where
     }
 }
 
-/// Gives choices the values that they had in a segment, in its order; `None` at any other choice.
+/// Chooser of the values of a segment, in order; it pauses at any other choice.
 struct Follow<'a> {
     steps: std::slice::Iter<'a, Step>,
     /// The proposal that would have drawn them, where their weights count.

@@ -10,7 +10,7 @@
 //!
 //! The evidence is the mean of `Z'` over all `sweeps + 1` populations, those that died as zero. Their number is fixed
 //! beforehand and they do not depend on the chain, so the mean is unbiased, where a call in which all died counts as zero.
-//! To go on until one survives and then make all sweeps would be biased: the number of populations would depend on the
+//! Continuing until a population survives, and then making all sweeps, would be biased: the number of populations would depend on the
 //! estimates.
 
 use crate::gibbs::{Chain, draw_index, sweep_seed};
@@ -23,11 +23,11 @@ use niwaki_run::streams::Reserved;
 use niwaki_run::weights::Normalised;
 use niwaki_run::{Failure, Task};
 
-/// `sweeps` sweeps after a first population. `watch` is called after each barrier; when it returns false, the sweeps so
-/// far are returned.
+/// Run `sweeps` sweeps after a first population. `watch` is called after each barrier; when it returns false, the sweeps so far are
+/// returned.
 ///
 /// # Errors
-/// A fault of the program, or populations that all died.
+/// Invalid settings; a fault of the program; populations that all died.
 pub fn pimh(
     task: &Task,
     settings: &Settings,
@@ -39,8 +39,8 @@ pub fn pimh(
     let mut first_death = None;
     let mut now: Option<(f64, Run)> = None;
     for sweep in 0..=sweeps {
-        let own = Settings { seed: sweep_seed(settings.seed, sweep), ..settings.clone() };
-        let proposed = match run(task, &own, false, watch) {
+        let sweep_settings = Settings { seed: sweep_seed(settings.seed, sweep), ..settings.clone() };
+        let proposed = match run(task, &sweep_settings, false, watch) {
             Ok(result) if result.interrupted => {
                 chain.interrupted = true;
                 break;
@@ -49,7 +49,7 @@ pub fn pimh(
                 let log = result.log_normaliser.unwrap_or(f64::NEG_INFINITY);
                 let mut weights = Normalised::default();
                 weights.read(result.particles.iter().map(|p| p.log_weight));
-                let drawn = result.particles.swap_remove(draw_index(&weights, own.seed, 0));
+                let drawn = result.particles.swap_remove(draw_index(&weights, sweep_settings.seed, 0));
                 Some((log, Run { log_weight: 0.0, ..drawn }))
             }
             Err(failure) if failure.is_impossible() => {

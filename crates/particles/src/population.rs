@@ -1,5 +1,5 @@
-//! The population and its steps: advance, weigh, resample. A [`sweep`](niwaki_propose::sweep) takes them in turn; so does
-//! one of conditional SMC, with one particle held.
+//! The population and its steps: advance, weigh, resample. A [`sweep`](niwaki_propose::sweep) takes them in turn, also
+//! with a held particle in conditional SMC.
 
 use crate::copies::{Ancestry, Copies};
 use crate::powers::Powers;
@@ -20,7 +20,7 @@ use niwaki_run::streams::Reserved;
 use niwaki_run::weights::Normalised;
 use niwaki_run::{Failure, Task};
 
-/// Particles, and what is kept of their past.
+/// A population: particles, and records of their past.
 pub(super) struct Population<'a> {
     pub task: Task,
     pub settings: &'a Settings,
@@ -32,33 +32,33 @@ pub(super) struct Population<'a> {
     pub moves: Moves,
     pub barriers: usize,
     pub counts: Counts,
-    /// Particles that became impossible so far.
+    /// Losses: particles that became impossible so far.
     pub losses: Losses,
 }
 
-/// What the particles weigh.
+/// The state of the weights.
 pub(super) struct Estimate {
     /// The weights since the last resampling.
     pub weights: Normalised,
-    /// Log of the estimate of the normalising constant so far.
+    /// The log of the estimated normalising constant so far.
     pub log_normaliser: f64,
-    /// The log weights at a barrier; kept from one to the next, so that none allocates.
+    /// The log weights at a barrier, in a buffer that is reused at each barrier.
     logs: Vec<f64>,
 }
 
-/// What was counted.
+/// Counters of a population.
 #[derive(Default)]
 pub(super) struct Counts {
-    /// How often a particle ran to a barrier.
+    /// The number of particle steps: runs of a particle to a barrier.
     pub steps: u64,
-    /// Barriers at which the particles were resampled.
+    /// The number of barriers with resampling.
     pub resampled: usize,
-    /// Particles that were possible before they ran to this barrier.
+    /// The number of particles that were possible before this barrier.
     possible: usize,
 }
 
 impl<'a> Population<'a> {
-    /// A population that has not begun. `serial` keeps it on one thread, because other populations use the others.
+    /// Create a population before its start. `serial` keeps it on a single thread, because other populations use the remaining threads.
     pub fn start(task: &Task, settings: &'a Settings, serial: bool) -> Result<Self, Failure> {
         let mut first = task.start(&task.machine(), settings.order == Order::DepthFirst)?;
         if let Some(proposal) = &settings.proposal {
@@ -77,14 +77,14 @@ impl<'a> Population<'a> {
         Population::of(task, settings, serial, first)
     }
 
-    /// A population whose particles go on from a paused one.
+    /// Create a population whose particles resume from a paused particle.
     pub fn go_on(task: &Task, settings: &'a Settings, from: &mut Particle) -> Result<Self, Failure> {
         let (state, past) = (from.state.clone(), from.past.clone());
         let first = Particle::start(state, from.record.fork(), 0, settings.seed);
         Population::of(task, settings, true, Particle { past, ..first })
     }
 
-    /// A population of copies of a particle, of weight one.
+    /// Create a population of copies of a particle, of weight 1.
     fn of(task: &Task, settings: &'a Settings, serial: bool, first: Particle) -> Result<Self, Failure> {
         let (n, powers) = (settings.particles, Powers::start(settings));
         let log_normaliser = powers.now * first.record.log_score();
@@ -106,12 +106,12 @@ impl<'a> Population<'a> {
         })
     }
 
-    /// The particles one by one, the copies of the last resampling made.
+    /// Separate the particles, and make the copies of the last resampling.
     pub fn settled(&mut self) -> &mut Vec<Particle> {
         self.swarm.settled(self.settings.seed)
     }
 
-    /// Counts the scores of particles that run one by one in their weights. Returns the best score, and how many have ended.
+    /// Add the scores of separate particles to their weights. Returns the best score and the number of ended particles.
     fn weigh_alone(&mut self, next: f64) -> (f64, usize) {
         let (mut best, mut ended) = (f64::NEG_INFINITY, 0);
         for p in self.swarm.alone() {
@@ -132,7 +132,7 @@ impl<'a> Population<'a> {
         (best, ended)
     }
 
-    /// Weighs the final set by the declared power, and reads its weights; false when no particle is possible.
+    /// Weigh the final set by the declared power, and normalise its weights; return false if no particle is possible.
     pub fn finish(&mut self) -> bool {
         let (power, declared) = (self.powers.now, self.settings.power);
         let particles = self.swarm.settled(self.settings.seed);
@@ -163,7 +163,7 @@ impl Particles for Population<'_> {
         running
     }
 
-    /// The `held` one is left to its caller.
+    /// The caller runs the `held` particle.
     fn advance(&mut self, held: Option<usize>) -> Result<(), Failure> {
         self.swarm.advance(&self.task, self.settings, held, self.barriers)
     }
@@ -211,7 +211,7 @@ impl Particles for Population<'_> {
         }
     }
 
-    /// Weights are reset, to what tempering leaves of them. The copies wait until the particles run again.
+    /// Weights are reset, or keep their tempered remainder. Copies are made when the particles run again.
     fn resample(&mut self, held: Option<usize>) -> Result<Option<usize>, Failure> {
         let (method, seed) = (self.settings.resampling, self.settings.seed);
         let mut random = Reserved::Resampling.stream(seed, self.barriers as u128, 0);

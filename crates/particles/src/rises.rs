@@ -43,8 +43,8 @@ pub fn paused(task: &Task, settings: &Settings, count: usize) -> Result<Vec<Part
         seen += 1;
         let place = if kept.len() < count { kept.len() } else { draw(seen) };
         if place < count {
-            let one = particles[running[draw(running.len())]].fork();
-            if place < kept.len() { kept[place] = one } else { kept.push(one) }
+            let paused = particles[running[draw(running.len())]].fork();
+            if place < kept.len() { kept[place] = paused } else { kept.push(paused) }
         }
         true
     });

@@ -9,17 +9,17 @@ use niwaki_run::setting::{BETWEEN, FROM_ZERO, POSITIVE, Range, Ranges, SHARE};
 use serde::{Deserialize, Deserializer};
 use std::sync::{Arc, LazyLock};
 
-/// How scores become weights.
+/// The rule that turns scores into weights.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub enum Weights {
     /// The ratio of successive scores: the final law is the posterior.
     Ratio,
-    /// The whole score at every step, resampled at every step: what the original did. No evidence.
+    /// The whole score at every step, with resampling at every step, as in the original system. There is no evidence.
     Absolute,
 }
 
-/// When to resample.
+/// The rule that triggers resampling.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum When {
     /// At every barrier.
@@ -28,21 +28,21 @@ pub enum When {
     EffectiveBelow(f64),
 }
 
-/// The schedule of the power from barrier to barrier. Whatever it is, the final law is that of the declared
+/// The schedule of the power from barrier to barrier. The final law is always that of the declared
 /// power: the weights correct for the power of each barrier.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(untagged)]
 pub enum Anneal {
     /// The declared power at every barrier.
     Constant,
-    /// The power at each barrier, the last one also at those after it.
+    /// The power at each barrier; the last power is for all later barriers.
     Schedule(Vec<f64>),
     /// From zero up to the declared power, at each barrier as far as the conditional effective sample size
     /// (Zhou, Johansen & Aston 2016, eq. 13) stays at this share of the particles.
     Adaptive(f64),
 }
 
-/// When to move: a number of barriers, or a word.
+/// The rule that triggers moves: a number of barriers, or a word.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Moment {
@@ -50,34 +50,34 @@ pub enum Moment {
     Resampled,
     /// Once, when all have ended.
     End,
-    /// At every so-many-th barrier, and once when all have ended.
+    /// After each given number of barriers, and once when all have ended.
     #[serde(untagged)]
     Every(usize),
 }
 
-/// How particles are moved.
+/// The settings of rejuvenation.
 #[derive(Clone, Debug)]
 pub struct Rejuvenation {
-    /// How to propose.
+    /// The kernel of the moves.
     pub kernel: Kernel,
-    /// Proposals for each particle, each time.
+    /// The number of proposals for each particle and time.
     pub moves: u64,
-    /// When.
+    /// The rule that triggers moves.
     pub at: Moment,
-    /// The chains that replace the final set; where there are none, every particle of the set is moved.
+    /// The chains that replace the final set; `None` to move every particle of the set.
     pub final_chains: Option<FinalChains>,
 }
 
-/// Chains from a few particles of the final set, instead of moves of all.
+/// Chains that start from a few particles of the final set, instead of moves of all particles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FinalChains {
-    /// How many chains.
+    /// The number of chains.
     pub chains: usize,
-    /// States of each that are kept, `moves` proposals apart.
+    /// The number of states of each chain, `moves` proposals apart.
     pub draws: usize,
 }
 
-/// Reads the share of effective particles below which to resample; null for every barrier.
+/// Read the share of effective particles below which to resample; null for every barrier.
 fn when<'de, D: Deserializer<'de>>(from: D) -> Result<When, D::Error> {
     Ok(Option::deserialize(from)?.map_or(When::Always, When::EffectiveBelow))
 }
@@ -86,18 +86,18 @@ fn when<'de, D: Deserializer<'de>>(from: D) -> Result<When, D::Error> {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(default)]
 pub struct Settings {
-    /// How many particles.
+    /// The number of particles.
     #[serde(skip)]
     pub particles: usize,
-    /// Order policy.
+    /// The order policy.
     pub order: Order,
-    /// Weighting.
+    /// The rule that turns scores into weights.
     pub weights: Weights,
     /// The power to which the score is raised in the final law (1: the posterior).
     pub power: f64,
-    /// The power at each barrier before.
+    /// The schedule of the power before the end.
     pub anneal: Anneal,
-    /// Resampling method.
+    /// The resampling method.
     pub resampling: Resampling,
     /// When to resample.
     #[serde(rename = "ess", deserialize_with = "when")]
@@ -108,13 +108,13 @@ pub struct Settings {
     /// The proposal for the choices that the prior does not draw.
     #[serde(skip)]
     pub proposal: Option<Arc<Proposal>>,
-    /// What weights count of the rest of a run; nothing where there is none.
+    /// The look-ahead that weights count, if any.
     #[serde(skip)]
     pub look_ahead: Option<LookAhead>,
-    /// Whether particles at the same place run together, in lanes. It changes time only.
+    /// Whether particles at the same place run together, in lanes. This setting changes only the time.
     #[serde(skip, default = "lanes")]
     pub lanes: bool,
-    /// Seed.
+    /// The seed.
     #[serde(skip)]
     pub seed: u64,
 }

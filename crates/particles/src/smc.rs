@@ -1,4 +1,4 @@
-//! One population from its start to its end, and its result.
+//! SMC of a single population, and its result.
 
 use crate::population::Population;
 use crate::rejuvenation::MoveCounts;
@@ -13,7 +13,7 @@ use niwaki_vm::value::Value;
 /// The result of SMC.
 #[derive(Default)]
 pub struct Result {
-    /// The final set; equal weights after a last resampling.
+    /// The final set, with equal weights after a last resampling.
     pub particles: Vec<Run>,
     /// Estimate of the log of the final law's normalising constant, the scores raised to the declared power,
     /// nats. `None` for absolute weights, which have none, and where the search was stopped.
@@ -22,45 +22,45 @@ pub struct Result {
     /// powers were adapted, or particles moved after resamplings that the weights decided: then
     /// consistent.
     pub log_evidence: Option<f64>,
-    /// How many barriers there were; of several populations, most.
+    /// The number of barriers; for several populations, the largest number.
     pub barriers: usize,
-    /// Particle-steps: how often a particle ran to a barrier.
+    /// The number of particle steps: runs of a particle to a barrier.
     pub steps: u64,
-    /// Barriers at which a population was resampled.
+    /// The number of barriers with resampling.
     pub resampled: usize,
-    /// Ancestors at the first barrier that the final set descends from.
+    /// The number of ancestors of the final set at the first barrier.
     pub ancestors: usize,
-    /// Whether it was stopped before all particles had ended.
+    /// Whether `watch` stopped the search before all particles had ended.
     pub interrupted: bool,
-    /// Sizes of the populations, in order: with the seed, all that is needed to repeat it.
+    /// The sizes of the populations, in order. With the seed, they reproduce the search.
     pub plan: Vec<usize>,
     /// Populations in which every particle became impossible; their evidence is zero, and counts.
     pub died: usize,
     /// The power at each barrier where it is not constant; of several populations, those of the first that
     /// lived.
     pub powers: Vec<f64>,
-    /// Moves of rejuvenation.
+    /// Counts of rejuvenation moves.
     pub moved: MoveCounts,
-    /// Particles that became impossible at barriers where others lived.
+    /// Losses: particles that became impossible at barriers where other particles survived.
     pub losses: Losses,
 }
 
 /// The progress of a run, for `watch`.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {
-    /// Barriers so far.
+    /// The number of barriers so far.
     pub barriers: usize,
-    /// Particles that have ended.
+    /// The number of ended particles.
     pub ended: usize,
-    /// Best log score among the particles that are possible.
+    /// The best log score of a possible particle.
     pub best: f64,
 }
 
-/// Runs a population of particles. `watch` is called after each barrier; when it returns false, the run stops and
-/// returns the result so far.
+/// Run a population of particles. `watch` is called after each barrier; when it returns false, the search stops and returns
+/// the result so far.
 ///
 /// # Errors
-/// Settings that make no sense, a fault of the program, or a population in which every particle is impossible.
+/// Invalid settings; a fault of the program; a population in which every particle is impossible.
 pub fn smc(
     task: &Task,
     settings: &Settings,
@@ -69,7 +69,7 @@ pub fn smc(
     run(task, settings, false, watch)
 }
 
-/// The same; `serial` on one thread.
+/// Like [`smc`]; `serial` runs on a single thread.
 pub(super) fn run(
     task: &Task,
     settings: &Settings,

@@ -1,5 +1,5 @@
-//! The particles of a population, and how they run from barrier to barrier: one by one, in a batch on this thread or in batches
-//! on all threads, or together in lanes. Which of these it is changes time only.
+//! Swarms: the particles of a population, which run from barrier to barrier: separately in a batch on this thread, separately in
+//! batches on all threads, or together in lanes. The results are the same; only the time differs.
 
 use crate::copies::{Copies, Indexed, copy};
 use crate::in_lanes::{InLanes, LEAST};
@@ -16,30 +16,30 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Most particles that one task of the thread pool advances.
+/// The most particles of a task of the thread pool.
 const BATCH: usize = 16;
-/// Tasks for each thread: particles differ in what they cost, and those that have ended cost nothing.
+/// The number of tasks for each thread: the costs of particles differ, and ended particles cost nothing.
 const TASKS: usize = 8;
-/// Parts of a population's budget of memory that one particle may use while it runs, if its own share is smaller.
+/// The divisor of a population's memory budget that gives the budget of a running particle, if its own share is smaller.
 const PARTS: usize = 64;
 
 /// The particles of a population.
 pub(super) struct Swarm {
     pub particles: Vec<Particle>,
-    /// The particles, while they run together; `particles` then means nothing.
+    /// The lanes of particles that run together; `particles` is then unused.
     pub lanes: Option<InLanes>,
-    /// When they may line up next.
+    /// The time of the next attempt to run together.
     rest: Rest,
-    /// The copies of the last resampling that are not made yet.
+    /// The pending copies of the last resampling.
     copies: Copies,
-    /// The memory that they take.
+    /// The memory of the particles.
     resident: Resident,
-    /// The task of one particle for each thread; with its own copy of the program where there are several.
+    /// The task of a particle for each thread, with separate copies of the program for several threads.
     tasks: Vec<Task>,
 }
 
 impl Swarm {
-    /// Copies of a particle. `serial` keeps them on one thread, because other populations use the others.
+    /// Create a swarm of copies of a particle. `serial` keeps it on a single thread, because other populations use the remaining threads.
     pub fn of(task: &Task, settings: &Settings, serial: bool, mut first: Particle) -> Swarm {
         let (n, threads) = (settings.particles, rayon::current_num_threads());
         let particles = (0..n as u64).map(|lineage| Particle {
@@ -62,12 +62,12 @@ impl Swarm {
         Swarm { particles, lanes: None, rest, copies, resident, tasks }
     }
 
-    /// Whether they run on several threads.
+    /// Whether the particles run on several threads.
     pub fn is_parallel(&self) -> bool {
         self.tasks.len() > 1
     }
 
-    /// The particles one by one, without the copies that are not made yet.
+    /// Separate the particles; pending copies stay pending.
     pub fn alone(&mut self) -> &mut [Particle] {
         if let Some(lanes) = self.lanes.take() {
             lanes.part(&mut self.particles);
@@ -75,14 +75,14 @@ impl Swarm {
         &mut self.particles
     }
 
-    /// The particles one by one, all copies made.
+    /// Separate the particles and make all pending copies.
     pub fn settled(&mut self, seed: u64) -> &mut Vec<Particle> {
         self.alone();
         self.copies.make(&mut self.particles, seed);
         &mut self.particles
     }
 
-    /// How many run, and how many have ended. One pass, because a population does not fit into the cache.
+    /// The numbers of running and of ended particles, in a single pass, because a population does not fit into the cache.
     pub fn count(&self) -> (usize, usize) {
         if let Some(lanes) = &self.lanes {
             return if lanes.have_ended() { (0, lanes.len()) } else { (lanes.len(), 0) };
@@ -93,7 +93,7 @@ impl Swarm {
         })
     }
 
-    /// Runs every particle to its next barrier, except the one whose index is `held`; so many `barriers` were before.
+    /// Run every particle to its next barrier, except the `held` particle. `barriers` is the number of barriers before.
     pub fn advance(
         &mut self,
         task: &Task,
@@ -132,7 +132,7 @@ impl Swarm {
         self.resident.grown(step.growth(task)?, task, &self.particles)
     }
 
-    /// Runs the particles together to the next barrier; false where they are, or have gone, apart.
+    /// Run the particles together to the next barrier; return false if they are or become separate.
     fn advance_together(&mut self, task: &Task, settings: &Settings, barriers: usize) -> bool {
         if self.lanes.is_none() {
             if barriers < self.rest.until || !may_line_up(task, settings) {
@@ -155,7 +155,7 @@ impl Swarm {
         false
     }
 
-    /// Changes every log weight.
+    /// Change every log weight.
     pub fn reweigh(&mut self, change: impl Fn(f64) -> f64) {
         match &mut self.lanes {
             Some(lanes) => lanes.log_weight.iter_mut().for_each(|log| *log = change(*log)),
@@ -163,7 +163,7 @@ impl Swarm {
         }
     }
 
-    /// Takes the copies of a resampling. They are made when the particles run again.
+    /// Register the copies of a resampling, which are made when the particles run again.
     pub fn copy(&mut self, copies: Copies, seed: u64) {
         self.copies = copies;
         if let Some(lanes) = &mut self.lanes {
@@ -174,7 +174,7 @@ impl Swarm {
         }
     }
 
-    /// What `work` says of the particles, batch by batch: one batch on this thread, or many on all threads.
+    /// Collect the results of `work` for batches of particles: a single batch on this thread, or many batches on all threads.
     ///
     /// # Errors
     /// The first that it has.
@@ -208,15 +208,15 @@ fn may_line_up(task: &Task, settings: &Settings) -> bool {
         && task.together.is_none()
 }
 
-/// When particles that went apart try to line up again: after one barrier where they stayed together for longer than they had
-/// waited, else after twice as many as before.
+/// The waiting time until separate particles try to run together again: a single barrier if they stayed together for longer than they
+/// had waited, otherwise twice the previous time.
 #[derive(Default)]
 struct Rest {
-    /// The barrier from which on they may.
+    /// The first barrier at which they may run together.
     until: usize,
-    /// How many barriers they wait the next time.
+    /// The next waiting time, barriers.
     length: usize,
-    /// The barrier at which they lined up last.
+    /// The barrier at which they last began to run together.
     since: usize,
 }
 
@@ -225,7 +225,7 @@ impl Rest {
     const SHORTEST: usize = 4;
     const LONGEST: usize = 256;
 
-    /// They went apart at this barrier, or could not line up.
+    /// Register that the particles are separate at a barrier.
     fn begin(&mut self, barrier: usize) {
         let stayed = barrier - self.since;
         self.length =
@@ -242,14 +242,14 @@ struct Step<'a> {
     /// The memory of all particles together, and by how much they may grow now, bytes.
     limit: usize,
     room: usize,
-    /// The first particle with a fault; the first of all where they have grown too much.
+    /// The first particle with a fault; the first particle of all if their memory has grown too much.
     failed: AtomicUsize,
-    /// By how much they have grown, and the fault of the first particle with one.
+    /// The growth of the particles, and the fault of the first failed particle.
     met: Mutex<(Growth, Option<(usize, Failure)>)>,
 }
 
 impl Step<'_> {
-    /// Runs the particles of a batch, with their indices.
+    /// Run the particles of a batch, with their indices.
     fn run<'p>(
         &self,
         task: &Task,
@@ -280,7 +280,7 @@ impl Step<'_> {
         }
     }
 
-    /// By how much all have grown.
+    /// The growth of all particles.
     fn growth(self, task: &Task) -> Result<Growth, Failure> {
         match self.met.into_inner().unwrap_or_else(PoisonError::into_inner) {
             (growth, _) if growth.up > self.room => Err(too_large(task)),
@@ -290,7 +290,7 @@ impl Step<'_> {
     }
 }
 
-/// Runs a particle to its next barrier, or to its end: choices are drawn by the proposal, where there is one for them.
+/// Run a particle to its next barrier or to its end. The proposal draws the choices that it covers.
 fn advance(
     particle: &mut Particle,
     machine: &mut Machine<'_>,
@@ -298,12 +298,12 @@ fn advance(
     settings: &Settings,
     sight: &mut Sight,
 ) -> Result<(), Failure> {
-    let (stream, otherwise) = (particle.stream, Prior(particle.stream));
+    let (stream, fallback) = (particle.stream, Prior(particle.stream));
     match settings.proposal.as_deref() {
-        None => particle.advance(machine, task, settings.seed, otherwise)?,
+        None => particle.advance(machine, task, settings.seed, fallback)?,
         Some(proposal) => {
             sight.recall(&particle.glance);
-            let chooser = ByProposal { proposal, stream, sight, otherwise };
+            let chooser = ByProposal { proposal, stream, sight, fallback };
             particle.advance(machine, task, settings.seed, chooser)?
         }
     };

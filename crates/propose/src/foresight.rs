@@ -1,5 +1,4 @@
-//! A guide as a forecast of what a paused run will still gain: it looks at the next choices, and its line says the rest
-//! ([`ahead`](crate::guide::ahead)).
+//! Guides as forecasts of the further score of a paused run, from the next choices of the run ([`ahead`](crate::guide::ahead)).
 
 use crate::guide::Network;
 use crate::guide::ahead::{BESIDE, inputs, root};
@@ -16,15 +15,15 @@ use niwaki_vm::machine::{Machine, Stop};
 use niwaki_vm::value::Value;
 use std::sync::Arc;
 
-/// Most futures that are looked at; all others count as coming to another stop.
+/// The most futures that are examined; further futures count as futures without a guided choice.
 const MOST: usize = 16;
 impl BoundGuide {
-    /// Whether it has learned to look ahead.
+    /// Whether the guide has learned to look ahead.
     pub fn looks_ahead(&self) -> bool {
         self.guide().form.ahead.is_some()
     }
 
-    /// The inputs of the line for a paused run, in `sight`, as the drawer of that number.
+    /// The inputs of the forecast for a paused run, in `sight`. `owner` is the number of the guide among the drawers.
     pub fn prospect<'s>(
         &self,
         run: Paused<'_>,
@@ -45,26 +44,26 @@ impl BoundGuide {
         sums.clear();
         sums.resize(inputs(units), 0.0);
         sight.forget();
-        let (mut choices, mut others) = (0.0, 0.0);
+        let (mut choices, mut unguided) = (0.0, 0.0);
         let mut usable = true;
         for (number, future) in run.state.runnable().iter().enumerate() {
             if number >= MOST || !usable {
-                others += 1.0;
+                unguided += 1.0;
                 continue;
             }
             let hidden = &mut sums[BESIDE..BESIDE + units];
-            let mut look = Looking { guide: self, net, run, sight, owner, hidden, found: false };
+            let mut look = Looking { guide: self, net, run, sight, owner, hidden, is_guided: false };
             match machine.resume(&mut state, future, &mut look) {
-                Ok(Stop::Paused) if look.found => choices += 1.0,
-                // It has nothing more to draw, or what it will draw is behind another one's choice.
+                Ok(Stop::Paused) if look.is_guided => choices += 1.0,
+                // The future has no further choice, or its next choice waits for another future.
                 Ok(Stop::Returned | Stop::Waiting) => {}
-                Ok(_) => others += 1.0,
-                // The run itself will meet the fault, if no other choice avoids it.
-                Err(_) => (others, usable) = (others + 1.0, false),
+                Ok(_) => unguided += 1.0,
+                // The run itself meets the fault, unless another choice avoids it.
+                Err(_) => (unguided, usable) = (unguided + 1.0, false),
             }
         }
         let g = root(run.record.log_score());
-        sums[..BESIDE].copy_from_slice(&[choices, others, g, g * g, g * choices, g * others]);
+        sums[..BESIDE].copy_from_slice(&[choices, unguided, g, g * g, g * choices, g * unguided]);
         let (before, after) = sums.split_at_mut(BESIDE + units);
         for (to, h) in after.iter_mut().zip(&before[BESIDE..]) {
             *to = g * h;
@@ -80,7 +79,7 @@ impl BoundGuide {
 pub struct Foresight {
     /// The guide.
     pub guide: Arc<BoundGuide>,
-    /// Its number among the drawers of its proposal, which share one sight.
+    /// The number of the guide among the drawers of its proposal, which share a sight.
     pub owner: usize,
 }
 
@@ -100,7 +99,7 @@ impl Forecast for Foresight {
     }
 }
 
-/// Runs up to the next choice, and looks there.
+/// Answers that run up to the next choice and let the guide look at it.
 struct Looking<'a, 's> {
     guide: &'a BoundGuide,
     net: &'a Net,
@@ -109,8 +108,8 @@ struct Looking<'a, 's> {
     owner: usize,
     /// Sums of hidden layers.
     hidden: &'s mut [f64],
-    /// Whether a choice was met that the guide draws.
-    found: bool,
+    /// Whether the run met a choice that the guide draws.
+    is_guided: bool,
 }
 
 impl Answers<f64> for Looking<'_, '_> {
@@ -120,7 +119,7 @@ impl Answers<f64> for Looking<'_, '_> {
         let seen = Context { address: at.address(), sketches, primitives: record.primitives, part: None };
         if let Some(site) = self.guide.look(at, dist, seen, self.sight, self.owner) {
             self.sight.hidden(self.net, site, self.hidden);
-            self.found = true;
+            self.is_guided = true;
         }
         Ok(Answer::Pause)
     }

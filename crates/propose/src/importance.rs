@@ -1,5 +1,5 @@
-//! Importance sampling: independent forward runs, each weighted by its score and, where a proposal draws choices, by
-//! prior over proposal. Without one it is likelihood weighting.
+//! Importance sampling: independent forward runs, weighted by score and by prior over proposal. Without a proposal the method is
+//! likelihood weighting.
 //!
 //! `w_i = s(x_i) p(x_i) / q(x_i)`, `p(value | score) ~ sum of w_i [value_i = value]`; the evidence is the mean weight.
 
@@ -21,16 +21,16 @@ const BLOCK: u64 = 256;
 pub struct Weighted {
     /// The runs, with their weights.
     pub runs: Vec<Run>,
-    /// Log of the mean weight, nats: an unbiased estimate of the evidence (not of its log), unless `watch` stopped
-    /// the search because of its results.
+    /// The log of the mean weight, nats. The mean weight is an unbiased estimate of the evidence, unless `watch` stopped the search
+    /// because of its results.
     pub log_evidence: f64,
 }
 
-/// `n` forward runs in parallel, some of their choices drawn by `proposal` where there is one. `watch` is called
-/// regularly with the number of runs; when it returns false, the runs so far are returned.
+/// Run the program `n` times forward, in parallel. `proposal` draws the choices that it covers. `watch` is called regularly with
+/// the number of runs; when it returns false, the runs so far are returned.
 ///
 /// # Errors
-/// A fault of the program, or of runs that are all invalid; runs that are all impossible.
+/// A fault of the program; only invalid runs; only impossible runs; `n` zero.
 pub fn importance(
     task: &Task,
     proposal: Option<&Proposal>,
@@ -41,13 +41,13 @@ pub fn importance(
     if let Some(proposal) = proposal {
         proposal.check(&task.program)?;
     }
-    let one = |i: u64| {
+    let run = |i: u64| {
         let stream = StreamKey::new(seed, i, 0);
         match proposal {
             None => forward_by(task, Prior(stream), false),
             Some(proposal) => {
                 let sight = &mut Sight::default();
-                forward_by(task, ByProposal { proposal, stream, sight, otherwise: Prior(stream) }, false)
+                forward_by(task, ByProposal { proposal, stream, sight, fallback: Prior(stream) }, false)
             }
         }
     };
@@ -55,7 +55,7 @@ pub fn importance(
     let mut runs = Vec::new();
     while (runs.len() as u64) < n {
         let from = runs.len() as u64;
-        let next = (from..n.min(from + BLOCK)).into_par_iter().map(one);
+        let next = (from..n.min(from + BLOCK)).into_par_iter().map(run);
         runs.extend(next.collect::<Result<Vec<_>, _>>()?);
         if !watch(runs.len()) {
             break;
@@ -72,7 +72,6 @@ pub fn importance(
 
 #[cfg(test)]
 mod tests {
-    //! The claim: the mean weight is the evidence, with runs that are impossible.
     use super::*;
     use niwaki_vm::core::parse::parse;
     use niwaki_vm::passes::compile;
@@ -85,17 +84,17 @@ mod tests {
             (do (condition (gt $x 0))) (do (factor (cond (eq $x 2) 0.5 0.0))) (return $x)) (entry "m"))"#;
         let task = Task::new(Arc::new(compile(&parse(text).unwrap(), vec![]).unwrap()));
         let n = 20_000;
-        let found = importance(&task, None, n, 1, &mut |_| true).unwrap();
+        let result = importance(&task, None, n, 1, &mut |_| true).unwrap();
         let (mean, square) = (0.3 + 0.2 * 0.5f64.exp(), 0.3 + 0.2 * 1.0f64.exp());
         let error = ((square - mean * mean) / n as f64).sqrt();
-        let z = (found.log_evidence.exp() - mean) / error;
-        assert!(found.runs.len() == n && z.abs() < 5.0, "{z}");
+        let z = (result.log_evidence.exp() - mean) / error;
+        assert!(result.runs.len() == n && z.abs() < 5.0, "{z}");
     }
 
-    /// The claim: runs that are all impossible are a failure, which counts what made them impossible; some are not.
+    /// Only impossible runs are a failure, which counts the causes; some impossible runs are none.
     #[test]
-    fn runs_that_are_all_impossible_are_a_failure() {
-        let found = |low: usize| {
+    fn a_program_with_only_impossible_runs_fails() {
+        let result = |low: usize| {
             let text = format!(
                 r#"(module (fn "m" (params) (set $x (sample (dist discrete_uniform 0 9)))
                 (do (condition (lt $x {low}))) (return $x)) (entry "m"))"#
@@ -103,10 +102,10 @@ mod tests {
             let task = Task::new(Arc::new(compile(&parse(&text).unwrap(), vec![]).unwrap()));
             importance(&task, None, 300, 1, &mut |_| true)
         };
-        let Err(Failure::Impossible { barrier: 0, causes, .. }) = found(0) else {
+        let Err(Failure::Impossible { barrier: 0, causes, .. }) = result(0) else {
             panic!("a run is possible")
         };
         assert_eq!(causes.iter().map(|(_, n)| *n).collect::<Vec<_>>(), [300]);
-        assert_eq!(found(1).unwrap().runs.len(), 300);
+        assert_eq!(result(1).unwrap().runs.len(), 300);
     }
 }

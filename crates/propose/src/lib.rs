@@ -1,8 +1,8 @@
-//! Where values come from beside the prior, and one run that stops on its way.
+//! Proposals beside the prior, and particles: runs that stop at barriers.
 //!
-//! * [`proposal`]: users' functions ([`user`]) and [`guide`]s for a run that begins; [`importance`]: such runs, weighed;
-//! * [`particle`]: a run that stops at barriers; [`look_ahead`]: what is expected of the rest of it, [`foresight`]: by a guide;
-//! * [`sweep`]: many such runs, weighed and resampled at each barrier;
+//! * [`proposal`]: users' functions ([`user`]) and [`guide`]s for new runs; [`importance`]: importance sampling with proposals;
+//! * [`particle`]: a run that stops at barriers; [`look_ahead`]: forecasts of its further score, [`foresight`]: by a guide;
+//! * [`sweep`]: sequential Monte Carlo over particles;
 //! * [`gradient`]: a task as a log density over its continuous choices.
 
 pub mod foresight;

@@ -1,4 +1,4 @@
-//! Look-ahead: weights count what is expected of the rest of a run (dissertation 7.2.3).
+//! Look-ahead: weights with a forecast of the further score of a run (dissertation 7.2.3).
 //!
 //! The score so far is greedy. With a *twist* `psi` (Whiteley & Lee 2014, "Twisted particle filters") particles that are
 //! paused at a barrier target
@@ -8,12 +8,12 @@
 //!               psi_n = 1                               before the first barrier, and of a run that has ended
 //! ```
 //!
-//! in place of `F_n`: a step of the weights is multiplied by `psi_n / psi_(n-1)`. The best `psi_n` is the mean of what the score
-//! is still multiplied by. As `psi` is one in the end, the product of the steps is what it is without: evidence and final
-//! law stay right for every forecast, however bad, if it is a function of the run so far.
+//! in place of `F_n`: a step of the weights is multiplied by `psi_n / psi_(n-1)`. The optimal `psi_n` is the mean of the further
+//! factor of the score. `psi` is 1 at the end, so the product of all steps does not change. Evidence and final law stay
+//! correct for every forecast that is a function of the run so far.
 //!
-//! Particle Gibbs weighs the held run like any other, and draws its ancestor without the `psi` of the prefix, as the law
-//! of the whole run has none. Moves of particles that still run would need the forecast of each run that is proposed, and are refused.
+//! Particle Gibbs weighs the held run like any other run, and draws its ancestor without the `psi` of the prefix, because the law
+//! of the whole run has no `psi`. Moves of running particles would need the forecast of each proposed run, and are refused.
 
 use crate::guide::bound::Sight;
 use crate::particle::Particle;
@@ -27,22 +27,22 @@ use std::sync::Arc;
 /// A run that is paused at a barrier.
 #[derive(Clone, Copy)]
 pub struct Paused<'a> {
-    /// What it is a run of.
+    /// The task of the run.
     pub task: &'a Task,
-    /// Its choices, its scene and scores so far.
+    /// The choices, the scene and the scores so far.
     pub record: &'a Record,
-    /// Its futures, and where each is.
+    /// The state of its futures.
     pub state: &'a State,
 }
 
-/// Says how much the log score of a paused run will still change.
+/// A forecast of the further change of the log score of a paused run.
 pub trait Forecast: Debug + Send + Sync {
-    /// The log of what the score is expected to be multiplied by until the run ends, nats. It depends on the run alone: machine
-    /// and sight are room to compute in. What is not a finite number counts as 0.
+    /// The log of the expected further factor of the score, nats. It is a function of the run alone: machine and sight are
+    /// workspaces. A result that is not finite counts as 0.
     fn rise(&self, run: Paused<'_>, machine: &mut Machine<'_>, sight: &mut Sight) -> f64;
 }
 
-/// A forecast, and how much of it counts.
+/// A look-ahead: a forecast and its strength.
 #[derive(Clone, Debug)]
 pub struct LookAhead {
     /// The share of the forecast that counts, above 0.
@@ -52,7 +52,7 @@ pub struct LookAhead {
 }
 
 impl Particle {
-    /// Notes its twist at this barrier, and what was seen for it.
+    /// Store the twist at this barrier, and the view of the guide behind it.
     pub fn foresee(
         &mut self,
         with: Option<&LookAhead>,

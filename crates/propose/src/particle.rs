@@ -1,4 +1,4 @@
-//! One particle, and how it runs to its next barrier: of a population, or of a part that is grown again.
+//! Particles: runs that stop at barriers, of a population or of a part that is grown again.
 
 use crate::guide::bound::Glance;
 use niwaki_math::{Stream, StreamKey, Total};
@@ -18,51 +18,51 @@ const ORDER: u64 = 1;
 
 /// A particle.
 pub struct Particle {
-    /// Its activations.
+    /// The activations of the run.
     pub state: State,
-    /// Its choices, scores and scene so far.
+    /// The choices, scores and scene so far.
     pub record: Record,
-    /// Number of its random stream; no other particle has or had it.
+    /// The number of the random stream; no other particle has or had it.
     pub lineage: u64,
-    /// That stream's key, for the choices of the model.
+    /// The key of the random stream, for the choices of the model.
     pub stream: StreamKey,
-    /// How many order choices it has drawn.
+    /// The number of order choices so far.
     pub picks: u64,
-    /// What the order policy has seen of its run.
+    /// The past of the run, as the order policy sees it.
     pub past: Past,
-    /// Whether it had ended before the last barrier.
+    /// Whether the run had ended before the last barrier.
     pub was_ended: bool,
-    /// The score that is already in its weight.
+    /// The score that the weight already counts.
     pub weighed: Total,
-    /// Log weight since the last resampling, with what that one left of the weight before.
+    /// The log weight since the last resampling, including the weight that the resampling left.
     pub log_weight: f64,
-    /// Log of prior over proposal of the choices since the last barrier: not yet in its weight.
+    /// The log of prior over proposal of the choices since the last barrier, which the weight does not count yet.
     pub pending: f64,
-    /// What its guide saw when it paused.
+    /// The view of the guide at the last pause.
     pub glance: Glance,
-    /// Log of its twist at this barrier, at power 1, nats ([`LookAhead`](crate::look_ahead::LookAhead)).
+    /// The log twist at this barrier, at power 1, nats ([`LookAhead`](crate::look_ahead::LookAhead)).
     pub ahead: f64,
-    /// The log twist that is in its weight.
+    /// The log twist that the weight counts.
     pub foreseen: f64,
-    /// The thread that ran it last.
+    /// The thread that ran the particle last.
     pub home: usize,
-    /// Bytes of its activations when they were counted last.
+    /// The bytes of the activations at the last count.
     pub bytes: isize,
 }
 
-/// The moment before one of the futures of a particle runs.
+/// A turn: the moment before a future of a particle runs.
 #[derive(Clone, Copy)]
 pub struct Turn<'a> {
-    /// The particle's activations.
+    /// The activations of the particle.
     pub state: &'a State,
-    /// What the order policy has seen of its run.
+    /// The past of the run, as the order policy sees it.
     pub past: &'a Past,
     /// How many order choices it has drawn.
     pub picks: u64,
 }
 
 impl Turn<'_> {
-    /// The place of a future drawn by the order policy, for the particle with this random stream.
+    /// Draw the place of a future by the order policy, with the random stream of the lineage.
     #[inline(always)]
     pub fn pick(self, seed: u64, lineage: u64) -> usize {
         match self.state.runnable().len() {
@@ -76,7 +76,7 @@ impl Turn<'_> {
 }
 
 impl Particle {
-    /// A particle that has not begun, of weight one: it has the score of its scene so far.
+    /// Create a particle of weight 1 before its start, with the score of its scene so far.
     pub fn start(state: State, record: Record, lineage: u64, seed: u64) -> Particle {
         Particle {
             state,
@@ -97,13 +97,13 @@ impl Particle {
         }
     }
 
-    /// Whether it still runs.
+    /// Whether the particle still runs.
     pub fn is_running(&self) -> bool {
         !self.state.has_ended() && self.record.cause.is_none()
     }
 
-    /// Runs to the next barrier, or to the end; a chooser gives the new choices, and the seed picks the futures. Returns
-    /// whether it paused.
+    /// Run to the next barrier or to the end. A chooser gives the new choices, and the order policy picks the futures. Returns
+    /// whether the particle paused.
     pub fn advance(
         &mut self,
         machine: &mut Machine<'_>,
@@ -117,8 +117,7 @@ impl Particle {
         self.advance_by(machine, task, pick, chooser)
     }
 
-    /// Like [`Particle::advance`], but `pick` gives the place of the future that runs next; `None` leaves the particle where it
-    /// is.
+    /// Like [`Particle::advance`], but `pick` gives the place of the future that runs next; `None` stops the particle.
     #[inline(always)]
     pub fn advance_by<C: Chooser>(
         &mut self,
@@ -155,7 +154,7 @@ impl Particle {
         }
     }
 
-    /// Runs to the end, over all barriers.
+    /// Run to the end, across all barriers. `pick` gives the place of the future that runs next.
     pub fn finish_by<C: Chooser>(
         &mut self,
         machine: &mut Machine<'_>,
@@ -169,20 +168,19 @@ impl Particle {
         Ok(())
     }
 
-    /// The log weight of its step from the score weighed before at a power to a score at the next power, nats: its forecast is
-    /// counted, and the one before taken back.
+    /// The log weight of a step to a score at the power `next`, nats: the new forecast counts in place of the previous forecast.
     #[inline(always)]
     pub fn log_step(&self, next: f64, score: &Total, power: f64) -> f64 {
         log_step(next, score, power, &self.weighed) + (next * self.ahead - power * self.foreseen)
     }
 
-    /// Counts the values that it holds, and its choices.
+    /// Count the values of the particle and its choices.
     pub fn count<'v>(&'v self, census: &mut Census<'v>) {
         self.state.count(census);
         self.record.log.count(census);
     }
 
-    /// A copy for a trial. It has the same lineage, so it must not draw random numbers.
+    /// Copy the particle for a trial. The copy has the same lineage, so it must not draw random numbers.
     pub fn fork(&mut self) -> Particle {
         Particle {
             state: self.state.clone(),
@@ -194,7 +192,7 @@ impl Particle {
         }
     }
 
-    /// Becomes a copy of `parent`, with a new random stream.
+    /// Become a copy of `parent`, with a new random stream.
     pub fn copy_from(&mut self, parent: &mut Particle, lineage: u64, seed: u64) {
         self.state.clone_from(&parent.state);
         self.record.become_copy(&mut parent.record);

@@ -1,4 +1,4 @@
-//! Users' proposals and guides for the choices of a run that begins, as a chooser.
+//! Proposals for the choices of new runs: users' functions and guides, as a chooser.
 
 use crate::foresight::Foresight;
 use crate::guide::bound::{BoundGuide, Sight};
@@ -15,16 +15,16 @@ use niwaki_vm::machine::answers::At;
 use niwaki_vm::value::{Value, log_density, repr};
 use std::sync::Arc;
 
-/// From a proposal, at the choices that it is for; else another chooser.
+/// Chooser that draws from a proposal; another chooser has the choices that the proposal does not cover.
 pub struct ByProposal<'a, C> {
     /// The proposal.
     pub proposal: &'a Proposal,
     /// The stream of its random bits.
     pub stream: StreamKey,
-    /// What its guides have seen of this run since its last barrier.
+    /// The views of the guides since the last barrier of the run.
     pub sight: &'a mut Sight,
-    /// The chooser of all other choices.
-    pub otherwise: C,
+    /// The chooser of all remaining choices.
+    pub fallback: C,
 }
 
 impl<C: Chooser> Chooser for ByProposal<'_, C> {
@@ -34,16 +34,16 @@ impl<C: Chooser> Chooser for ByProposal<'_, C> {
 
     fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
         match self.proposal.draw(at, dist, seen, self.sight, self.stream)? {
-            None => self.otherwise.choose(at, dist, seen),
+            None => self.fallback.choose(at, dist, seen),
             chosen => Ok(chosen),
         }
     }
 }
 
-/// A value that is held, counted as if a proposal, or else the prior, had drawn it.
+/// Score a known value as if a proposal, or otherwise the prior, had drawn it.
 ///
 /// # Errors
-/// As for [`Proposal::log_drawn`].
+/// The errors of [`Proposal::log_drawn`].
 pub fn as_if_drawn(
     proposal: Option<&Proposal>,
     at: &At<'_, f64>,
@@ -62,24 +62,24 @@ pub fn as_if_drawn(
     Ok(chosen)
 }
 
-/// Who draws.
+/// The source of a proposal.
 #[derive(Clone, Debug)]
 enum Drawer {
     User(Arc<User>),
     Guide(Arc<BoundGuide>),
 }
 
-/// Proposals for the choices of a run that begins: of those whose patterns match a choice's address the first.
+/// Proposals for the choices of new runs. The first proposal whose patterns match the address of a choice draws it.
 #[derive(Clone, Debug, Default)]
 pub struct Proposal {
     parts: Vec<(Selection, Drawer)>,
 }
 
 impl Proposal {
-    /// Adds a user's function, for the choices of a selection by patterns.
+    /// Add a user's function for the choices of a selection by patterns.
     ///
     /// # Errors
-    /// A function that needs the value before, which a new run does not have.
+    /// A function that needs the previous value, which a new run does not have.
     pub fn add_user(&mut self, selection: Selection, user: Arc<User>) -> Result<(), Fault> {
         if user.needs_old() {
             let name = user.name();
@@ -92,15 +92,15 @@ impl Proposal {
         Ok(())
     }
 
-    /// Adds a guide, for the choices of a selection by patterns.
+    /// Add a guide for the choices of a selection by patterns.
     pub fn add_guide(&mut self, selection: Selection, guide: Arc<BoundGuide>) {
         self.parts.push((selection, Drawer::Guide(guide)));
     }
 
-    /// Refuses a pattern that no choice of the program can match.
+    /// Check that each pattern can match a choice of the program.
     ///
     /// # Errors
-    /// Such a pattern, with those that are nearest.
+    /// A pattern that cannot; the message names the nearest choices.
     pub fn check(&self, program: &Program) -> Result<(), Fault> {
         let labels = labels(program);
         let patterns = self.parts.iter().flat_map(|(selection, _)| selection.sites.iter().flatten());
@@ -112,7 +112,7 @@ impl Proposal {
         Ok(())
     }
 
-    /// The first of its guides that has learned to look ahead.
+    /// The first guide that has learned to look ahead.
     pub fn forecast(&self) -> Option<Arc<dyn Forecast>> {
         self.parts.iter().enumerate().find_map(|(owner, (_, drawer))| match drawer {
             Drawer::Guide(guide) if guide.looks_ahead() => {
@@ -122,7 +122,7 @@ impl Proposal {
         })
     }
 
-    /// Whether it looks at the scene.
+    /// Whether a proposal uses the scene.
     pub fn looks(&self) -> bool {
         self.parts.iter().any(|(_, drawer)| matches!(drawer, Drawer::Guide(_)))
     }
@@ -132,7 +132,7 @@ impl Proposal {
         self.parts.iter().any(|(selection, _)| selection.sites.iter().flatten().any(|p| is_deep(p)))
     }
 
-    /// A value for a choice, with its densities; `None` where the prior draws.
+    /// Draw a value for a choice, with its densities; `None` where no proposal covers the choice.
     ///
     /// # Errors
     /// A fault of the proposal.
@@ -150,17 +150,17 @@ impl Proposal {
                 Ok(guide.draw(at, dist, seen, sight, number, &mut stream.at(seen.address)))
             }
             Some((_, Drawer::User(user))) => {
-                let own = of_user(user, at, dist)?;
-                let (draw, log_drawn) = own.sample_and_score(&mut stream.at(seen.address));
+                let proposed = of_user(user, at, dist)?;
+                let (draw, log_drawn) = proposed.sample_and_score(&mut stream.at(seen.address));
                 Ok(Some(Chosen { log_drawn, ..Chosen::given(draw.into(), dist)? }))
             }
         }
     }
 
-    /// The log density with which it draws that value at a choice, nats; `None` where the prior draws.
+    /// The log density with which the proposal draws a value, nats; `None` where no proposal covers the choice.
     ///
     /// # Errors
-    /// A fault of the proposal; a value that it never draws.
+    /// A fault of the proposal; a value that the proposal never draws.
     pub fn log_drawn(
         &self,
         at: &At<'_, f64>,
@@ -169,14 +169,14 @@ impl Proposal {
         seen: Context<'_>,
         sight: &mut Sight,
     ) -> Result<Option<f64>, Fault> {
-        let own = match self.drawer(at, dist) {
+        let proposed = match self.drawer(at, dist) {
             None => return Ok(None),
             Some((number, Drawer::Guide(guide))) => {
                 return Ok(guide.log_drawn(at, dist, value, seen, sight, number));
             }
             Some((_, Drawer::User(user))) => of_user(user, at, dist)?,
         };
-        let log = log_density(&own, value)?;
+        let log = log_density(&proposed, value)?;
         if log == f64::NEG_INFINITY {
             let message =
                 format!("the proposal of the choice `{}` never draws the value {}", at.path(), repr(value)?);
@@ -185,7 +185,7 @@ impl Proposal {
         Ok(Some(log))
     }
 
-    /// Who draws a choice, with its number; `None` where nobody does, or there is only one value.
+    /// The drawer of a choice, with its number; `None` where no proposal covers the choice, or where it has a single value.
     fn drawer(&self, at: &At<'_, f64>, dist: &Dist) -> Option<(usize, &Drawer)> {
         if matches!(dist, Dist::Delta(_)) {
             return None;
@@ -197,24 +197,24 @@ impl Proposal {
 
 /// The distribution that a user's proposal gives for a choice.
 fn of_user(user: &User, at: &At<'_, f64>, dist: &Dist) -> Result<Arc<Dist>, Fault> {
-    let own = user.dist(at, None)?;
+    let proposed = user.dist(at, None)?;
     let (name, site, family) = (user.name(), at.path(), dist.family());
-    if !own.compares_with(dist) {
+    if !proposed.compares_with(dist) {
         let message = format!(
             "the proposal `{name}` draws from `{}` for the choice `{site}`, which draws from `{family}`: values of \
                  another kind",
-            own.family()
+            proposed.family()
         );
         return Err(Fault::new("proposal-kind", message)
             .with_help("propose values of the kind that the choice's own distribution draws"));
     }
-    if let Some(missing) = own.lacks(dist) {
+    if let Some(missing) = proposed.lacks(dist) {
         let message = format!(
             "the proposal `{name}` of the choice `{site}` never draws {missing}, which its `{family}` does"
         );
         return Err(Fault::new("proposal-support", message).with_help(WIDER));
     }
-    Ok(own)
+    Ok(proposed)
 }
 
 /// The help for a proposal that leaves values out.

@@ -1,49 +1,50 @@
-//! One sweep of sequential Monte Carlo: particles grow from barrier to barrier until all have ended.
+//! A sweep of sequential Monte Carlo: particles run from barrier to barrier until all have ended.
 //!
 //! ```text
 //! while particles run
-//!     advance      each one runs to its next barrier; the held one follows its run
-//!     weigh        the scores at this barrier count in the weights
-//!     resample     where few particles have most of the weight; the held one survives
-//!     rejuvenate   where the particles are moved
+//!     advance      each particle runs to its next barrier; the held particle follows its run
+//!     weigh        the weights count the scores at this barrier
+//!     resample     where few particles have most of the weight; the held particle survives
+//!     rejuvenate   where particles are moved
 //! ```
 //!
-//! Nobody is held in a population of its own (SMC). In conditional SMC one particle holds the present run of a chain, so
-//! that the sweep leaves the law of the runs as it is (Andrieu, Doucet & Holenstein 2010, section 4.3): particle Gibbs
-//! sweeps over whole runs, regrowth over a part of one. What the particles are, and from which streams they draw, is theirs.
+//! Plain SMC holds no particle. In conditional SMC a particle holds the present run of a chain, so that the sweep preserves the
+//! law of the runs (Andrieu, Doucet & Holenstein 2010, section 4.3): particle Gibbs sweeps over whole runs, regrowth over a part
+//! of a run. The trait [`Particles`] leaves the form of particles and their random streams open.
 
 use niwaki_run::Failure;
 
 /// Particles that a sweep grows.
 pub trait Particles {
-    /// What they show at a barrier.
+    /// The summary of a barrier for `watch`.
     type Seen;
 
-    /// How many run.
+    /// The number of running particles.
     fn running(&mut self) -> usize;
 
-    /// Runs each of them to its next barrier, or to its end; the `held` one along the run that it holds.
+    /// Run each particle to its next barrier or to its end. The `held` particle follows its run.
     ///
     /// # Errors
     /// A fault of the program.
     fn advance(&mut self, held: Option<usize>) -> Result<(), Failure>;
 
-    /// Counts the scores at this barrier in the weights.
+    /// Add the scores at this barrier to the weights.
     ///
     /// # Errors
-    /// A sketch scores NaN, or all are impossible where that is an error.
+    /// A sketch scores NaN; all particles are impossible, where that is an error.
     fn weigh(&mut self) -> Result<Self::Seen, Failure>;
 
     /// Whether to resample now.
     fn is_low(&self) -> bool;
 
-    /// Resamples them; the `held` one survives, or another one takes its run over. Returns who holds it then.
+    /// Resample the particles. The `held` particle survives, or another particle takes over its run. Returns the index of the
+    /// particle that holds the run afterwards.
     ///
     /// # Errors
     /// A fault of the program.
     fn resample(&mut self, held: Option<usize>) -> Result<Option<usize>, Failure>;
 
-    /// Moves them, where that is due.
+    /// Move the particles, where a move is due.
     ///
     /// # Errors
     /// A fault of the program.
@@ -52,11 +53,11 @@ pub trait Particles {
     }
 }
 
-/// Grows particles, of which one may be `held`, until all have ended. `watch` sees them at each barrier before they are
-/// resampled; when it returns false, they are left as they are, and so is the return value.
+/// Run particles until all have ended. `held` is the index of a particle that holds a run. `watch` is called at each barrier
+/// before resampling; when it returns false, the sweep stops and returns false.
 ///
 /// # Errors
-/// Those of the particles.
+/// The errors of the methods of [`Particles`].
 pub fn sweep<P: Particles>(
     particles: &mut P,
     mut held: Option<usize>,

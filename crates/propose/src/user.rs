@@ -1,7 +1,7 @@
-//! A user's proposal: a model function that returns a distribution for a new value.
+//! User proposals: model functions that return a distribution for a new value.
 //!
-//! Its parameters are names: `old` is the value before, any other name is a variable in scope at the choice. With
-//! `s` for those variables, which a change of the choice itself does not touch,
+//! The parameter `old` receives the previous value; any other parameter receives the variable of its name in scope at the choice.
+//! With `s` for these variables, which a change of the choice itself does not affect,
 //!
 //! ```text
 //! x' ~ f(x, s)        forward = log f(x, s)(x')        backward = log f(x', s)(x)
@@ -17,14 +17,14 @@ use niwaki_vm::machine::answers::At;
 use niwaki_vm::value::Value;
 use std::sync::{Arc, OnceLock};
 
-/// The parameter that receives the value before.
+/// The parameter that receives the previous value.
 const OLD: &str = "old";
 
-/// A function that returns a distribution, and its name.
+/// A user proposal: a function that returns a distribution.
 pub struct User {
     task: Task,
     name: String,
-    /// Its distribution, where it has no parameters.
+    /// The distribution of a function without parameters.
     constant: OnceLock<Arc<Dist>>,
 }
 
@@ -35,10 +35,10 @@ impl std::fmt::Debug for User {
 }
 
 impl User {
-    /// The entry function of a task's program.
+    /// Create a proposal from the entry function of a task's program.
     ///
     /// # Errors
-    /// It makes choices itself.
+    /// The function makes choices itself.
     pub fn new(task: Task) -> Result<User, Fault> {
         let entry = task.program.function(task.program.entry);
         let name = entry.name.to_string();
@@ -52,7 +52,7 @@ impl User {
         Ok(User { task, name, constant: OnceLock::new() })
     }
 
-    /// Its name.
+    /// The name of the function.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -61,28 +61,28 @@ impl User {
         &self.task.program.function(self.task.program.entry).parameters
     }
 
-    /// Whether it needs the value before.
+    /// Whether the function needs the previous value.
     pub fn needs_old(&self) -> bool {
         self.parameters().iter().any(|name| &**name == OLD)
     }
 
-    /// The variables that it needs. A program must be compiled to keep them
-    /// ([`compile_with_scope`](niwaki_vm::passes::compile_with_scope)).
+    /// The variables that the function needs. A program must be compiled to keep them
+    /// ([`compile_keeping`](niwaki_vm::passes::compile_keeping)).
     pub fn variables(&self) -> impl Iterator<Item = &Name> {
         self.parameters().iter().filter(|name| &***name != OLD)
     }
 
-    /// The distribution for a choice, given its value before where there is one.
+    /// The distribution for a choice. `old` is the previous value, if there is a previous value.
     ///
     /// # Errors
-    /// A variable that is not in scope there, or is no number and no truth value; a function that fails or gives
-    /// something else.
+    /// A variable that is not in scope, or that is neither a number nor a truth value; a function that fails, or that does not
+    /// return a distribution.
     pub fn dist(&self, at: &At<'_, f64>, old: Option<&Value>) -> Result<Arc<Dist>, Fault> {
         if self.parameters().is_empty() {
             if let Some(known) = self.constant.get() {
                 return Ok(known.clone());
             }
-            let dist = Arc::new(self.given(&[])?);
+            let dist = Arc::new(self.evaluate(&[])?);
             return Ok(self.constant.get_or_init(|| dist).clone());
         }
         let value = |name: &Name| match (&**name, old) {
@@ -90,7 +90,7 @@ impl User {
             _ => self.variable(name, at),
         };
         let args = self.parameters().iter().map(value).collect::<Result<Vec<_>, _>>()?;
-        Ok(Arc::new(self.given(&args)?))
+        Ok(Arc::new(self.evaluate(&args)?))
     }
 
     /// A variable in scope at a choice.
@@ -113,7 +113,7 @@ impl User {
     }
 
     /// The distribution for these arguments.
-    fn given(&self, args: &[Value]) -> Result<Dist, Fault> {
+    fn evaluate(&self, args: &[Value]) -> Result<Dist, Fault> {
         let wrong = |problem: String| {
             Fault::new("bad-proposal", format!("the proposal `{}` {problem}", self.name)).with_help(
                 "a proposal takes `old` or variables in scope, and gives a distribution over new values",

@@ -1,14 +1,14 @@
-//! How a choice gets its value, in one place for every algorithm.
+//! Choosers: the sources of the values of choices, the same for every algorithm.
 //!
-//! A chooser answers a choice with a value and with two log densities of it: under the choice's own distribution, `p`,
-//! and under the one that the value was drawn from, `q`. An algorithm that draws from `q` and wants `p` weighs by
+//! A chooser answers a choice with a value and two log densities of the value: under the prior of the choice, `p`, and under
+//! the distribution from which the value was drawn, `q`. An algorithm that draws from `q` and targets `p` weighs a run by
 //!
 //! ```text
 //! log p(x) - log q(x)        summed over the choices of a run
 //! ```
 //!
-//! [`Prior`] draws from `p` itself, [`Known`] uses given values, `ByProposal` (in `niwaki-propose`) draws from a
-//! user's proposal or a guide; the last two pass other choices to another chooser. A chooser may look at the scene so far ([`Context`]).
+//! [`Prior`] draws from `p` itself, [`Known`] uses known values, `ByProposal` (in `niwaki-propose`) draws from a user's proposal
+//! or a guide. The last two pass all remaining choices to another chooser. A chooser may use the scene so far ([`Context`]).
 
 use niwaki_geom::Aabb;
 use niwaki_geom::sketch::product::Sketches;
@@ -23,20 +23,20 @@ use std::collections::HashMap;
 pub struct Chosen {
     /// The value.
     pub value: Value,
-    /// Its log density under the choice's own distribution, nats.
+    /// The log density under the prior of the choice, nats.
     pub log_prior: f64,
-    /// Its log density under the distribution that it was drawn from, nats; 0 for a given value.
+    /// The log density under the distribution from which the value was drawn, nats; 0 for a known value.
     pub log_drawn: f64,
 }
 
 impl Chosen {
-    /// A value from the prior with its log density, nats.
+    /// Answer with a value from the prior. `log` is its log density, nats.
     #[inline(always)]
     pub fn from_prior(value: impl Into<Value>, log: f64) -> Chosen {
         Chosen { value: value.into(), log_prior: log, log_drawn: log }
     }
 
-    /// A given value.
+    /// Answer with a known value.
     ///
     /// # Errors
     /// A value that no distribution can draw.
@@ -45,48 +45,48 @@ impl Chosen {
     }
 }
 
-/// What a chooser may use beside the choice.
+/// The context of a choice: data that a chooser may use beside the choice.
 #[derive(Clone, Copy)]
 pub struct Context<'a> {
     /// The address of the choice.
     pub address: u128,
     /// The sketches of the scene so far. `None` for a task without sketches, and where they are not up to date at this
-    /// choice (a run that is followed again, a Markov chain).
+    /// choice (in a replay or in a Markov chain).
     pub sketches: Option<&'a Sketches>,
-    /// How many primitives the scene has.
+    /// The number of primitives of the scene.
     pub primitives: usize,
-    /// The part that was emitted last on the call path, where the run itself does not note it (a Markov chain).
+    /// The last part that was emitted on the call path, where the run itself does not record it (in a Markov chain).
     pub part: Option<Aabb>,
 }
 
 impl Context<'_> {
-    /// That of a choice without a scene.
+    /// The context of a choice without a scene.
     #[inline(always)]
     pub fn of(at: &At<'_, f64>) -> Self {
         Context { address: at.address(), sketches: None, primitives: 0, part: None }
     }
 }
 
-/// Gives choices their values.
+/// A source of the values of choices.
 pub trait Chooser {
-    /// Whether every value is drawn from the choice's own distribution, so that all weights are zero.
+    /// Whether every value is drawn from the prior, so that all log weights are zero.
     const IS_PRIOR: bool = false;
 
-    /// Whether it looks at the scene, so that windows and the last parts must be kept.
+    /// Whether the chooser uses the scene, so that windows and last parts must be kept.
     fn looks(&self) -> bool {
         false
     }
 
-    /// A value for the choice; `None` where the run is to pause before it.
+    /// Choose a value; `None` pauses the run before the choice.
     ///
     /// # Errors
     /// A fault ends the run.
     fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault>;
 
-    /// The same value, where its densities are not needed and there is no scene.
+    /// Choose the same value without its densities, in a run without a scene.
     ///
     /// # Errors
-    /// As for [`Chooser::choose`].
+    /// The errors of [`Chooser::choose`].
     #[inline]
     fn draw(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Option<Value>, Fault> {
         Ok(self.choose(at, dist, Context::of(at))?.map(|chosen| chosen.value))
@@ -105,7 +105,7 @@ impl<C: Chooser> Chooser for &mut C {
     }
 }
 
-/// From the choice's own distribution, with the random bits of this stream at the choice's address.
+/// Chooser that draws from the prior, with the random bits of a stream at the address of the choice.
 #[derive(Clone, Copy)]
 pub struct Prior(pub StreamKey);
 
@@ -124,12 +124,12 @@ impl Chooser for Prior {
     }
 }
 
-/// Values by address, where some are known; else another chooser.
+/// Chooser of known values by address; another chooser has all remaining choices.
 pub struct Known<'a, C> {
-    /// The values.
+    /// The known values.
     pub values: Option<&'a HashMap<u128, Value>>,
-    /// The chooser of all other choices.
-    pub otherwise: C,
+    /// The chooser of all remaining choices.
+    pub fallback: C,
 }
 
 impl<C> Known<'_, C> {
@@ -143,7 +143,7 @@ impl<C: Chooser> Chooser for Known<'_, C> {
     fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
         match self.find(seen.address) {
             Some(value) => Chosen::given(value.clone(), dist).map(Some),
-            None => self.otherwise.choose(at, dist, seen),
+            None => self.fallback.choose(at, dist, seen),
         }
     }
 
@@ -151,12 +151,12 @@ impl<C: Chooser> Chooser for Known<'_, C> {
     fn draw(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Option<Value>, Fault> {
         match self.find(at.address()) {
             Some(value) => Ok(Some(value.clone())),
-            None => self.otherwise.draw(at, dist),
+            None => self.fallback.draw(at, dist),
         }
     }
 }
 
-/// No values: any choice is a fault, with this help.
+/// Chooser without values: any choice is a fault with this help.
 pub struct Refuse(pub &'static str);
 
 impl Chooser for Refuse {

@@ -1,10 +1,10 @@
-//! Exact enumeration: every value of every choice, by forking the run at each.
+//! Exact enumeration: the run is forked at each choice, for every value of the choice.
 //!
-//! `p(outcome, score) = sum over runs of exp(log_prior + log_score)`, an outcome being the program's value.
+//! `p(outcome, score) = sum over runs of exp(log_prior + log_score)`, where an outcome is a value of the program.
 //!
-//! A program with too many runs, or with endlessly many, can be enumerated in part: the branch with the largest joint
-//! probability so far goes on first, until so many runs have been visited. The prior probability of what is left is known
-//! exactly, and where a run's later scores are bounded, so is what it could add to the evidence.
+//! A program with too many or infinitely many runs can be enumerated in part: the branch with the largest joint probability
+//! resumes first, until a given number of runs have been visited. The prior probability of all other runs is known exactly.
+//! Where later scores are bounded, the evidence of the other runs is bounded, too.
 
 mod frontier;
 
@@ -25,35 +25,35 @@ use std::collections::HashMap;
 pub struct Enumerated {
     /// Outcomes in order of first appearance, with their unnormalised log probabilities, nats.
     pub outcomes: Vec<(Value, f64)>,
-    /// Log of their sum: the evidence, or of a part of the runs a lower bound of it.
+    /// Log of the sum of the outcomes: the evidence, or its lower bound where runs were not visited.
     pub log_evidence: f64,
-    /// How many complete runs were visited.
+    /// The number of complete runs that were visited.
     pub runs: usize,
-    /// The prior probability of the runs that were not.
+    /// The prior probability of the runs that were not visited.
     pub unseen: f64,
-    /// Log of the most that they add to the evidence, nats.
+    /// The log of the most that unvisited runs add to the evidence, nats.
     pub log_unseen: f64,
 }
 
-/// What to visit.
+/// The runs that an enumeration visits.
 #[derive(Clone, Copy, Debug)]
 pub enum Visit {
-    /// All runs; more than so many are a failure.
+    /// All runs. More runs than this number are a failure.
     All(usize),
-    /// So many, the likeliest branches first.
+    /// The runs of the most probable branches.
     Likely {
-        /// How many.
+        /// The number of runs.
         runs: usize,
-        /// The most that the rest of a run adds to its log score, nats.
+        /// The most that the remainder of a run adds to its log score, nats.
         rest: f64,
     },
 }
 
-/// Gives the next choice its value. At the choice after it the run pauses, with all values of that choice.
+/// Chooser that gives the next choice its value, and pauses the run at the choice after it with all values of that choice.
 struct Branching {
     next: Option<Chosen>,
     open: Vec<Next>,
-    /// Whether values may be endlessly many.
+    /// Whether a choice may have infinitely many values.
     endless: bool,
 }
 
@@ -64,7 +64,7 @@ impl Chooser for Branching {
         }
         let Some(draws) = dist.enumerate() else {
             if let (true, Support::Integers { lo, hi: None }) = (self.endless, dist.support()) {
-                self.open.push(Next::From { dist: dist.clone(), value: lo, left: 1.0 });
+                self.open.push(Next::From { dist: dist.clone(), value: lo, tail: 1.0 });
                 return Ok(None);
             }
             return Err(not_enumerable(&at.path()));
@@ -94,10 +94,10 @@ pub fn too_many(max_runs: usize) -> Fault {
         .with_help("enumerate the likeliest of them (`likely=True`), or use particles")
 }
 
-/// Enumerates every run of the program, at most `max_runs`, impossible ones included; see [`visit`].
+/// Enumerate every run of the program. `max_runs` limits the number of runs, including impossible runs.
 ///
 /// # Errors
-/// As for [`visit`].
+/// The errors of [`visit`].
 pub fn enumerate(
     task: &Task,
     max_runs: usize,
@@ -106,12 +106,12 @@ pub fn enumerate(
     visit(task, Visit::All(max_runs), watch)
 }
 
-/// Visits runs of the program. `watch` is called with the number of runs after each; when it returns false, the search stops:
-/// without a result where all runs are to be visited, else with what it has.
+/// Visit runs of the program. `watch` is called with the number of runs after each run. When it returns false, [`Visit::All`]
+/// fails and [`Visit::Likely`] returns the outcomes so far.
 ///
 /// # Errors
-/// A choice that cannot be enumerated, more runs than allowed, runs that are all impossible, or a fault of the program: also
-/// of runs that are all invalid.
+/// A choice that cannot be enumerated, too many runs, only impossible runs, or a fault of the program, also where all runs are
+/// invalid.
 pub fn visit(task: &Task, what: Visit, watch: &mut dyn FnMut(usize) -> bool) -> Result<Enumerated, Failure> {
     let mut machine = task.machine();
     let mut open = Frontier::new(what);
@@ -126,19 +126,19 @@ pub fn visit(task: &Task, what: Visit, watch: &mut dyn FnMut(usize) -> bool) -> 
     };
     let mut outcomes: Vec<(Value, Vec<f64>)> = Vec::new();
     let mut index: HashMap<String, usize> = HashMap::new();
-    // Complete runs, and with them those that are impossible, which may be far more.
+    // `met` counts impossible runs as well, which may be far more than the complete runs.
     let (mut runs, mut met, mut all) = (0, 0, AllInvalid::default());
     let mut causes: HashMap<String, usize> = HashMap::new();
     while let Some(mut branch) = open.pop() {
         let next = match branch.next {
             Next::Start => None,
             Next::Value(chosen) => Some(chosen),
-            Next::From { dist, value, left } => {
+            Next::From { dist, value, tail } => {
                 let log = dist.log_density_of_int(value);
                 let chosen = Chosen::from_prior(Value::Int(value), log);
-                let others = left - log.exp();
-                if let (true, Some(value)) = (others > 0.0, value.checked_add(1)) {
-                    let next = Next::From { dist, value, left: others };
+                let tail = tail - log.exp();
+                if let (true, Some(value)) = (tail > 0.0, value.checked_add(1)) {
+                    let next = Next::From { dist, value, tail };
                     open.push(Branch { state: branch.state.clone(), record: branch.record.fork(), next });
                 }
                 if log > f64::NEG_INFINITY {
@@ -194,7 +194,7 @@ pub fn visit(task: &Task, what: Visit, watch: &mut dyn FnMut(usize) -> bool) -> 
             break;
         }
     }
-    let (unseen, log_unseen) = open.unseen(rest);
+    let (unseen, log_unseen) = open.unvisited(rest);
     let outcomes: Vec<(Value, f64)> =
         outcomes.into_iter().map(|(v, logs)| (v, log_sum_exp(logs.into_iter()))).collect();
     if outcomes.is_empty() {
@@ -217,9 +217,9 @@ mod tests {
     use niwaki_vm::passes::compile;
     use std::sync::Arc;
 
-    /// The claim: a program whose every run is impossible has no distribution. It is a failure that counts what made them impossible.
+    /// Programs with only impossible runs fail; the failure counts the causes.
     #[test]
-    fn runs_that_are_all_impossible_are_a_failure() {
+    fn a_program_with_only_impossible_runs_fails() {
         let text = r#"(module (fn "m" (params) (set $x (sample (dist discrete_uniform 0 9)))
             (do (condition (lt $x 3))) (do (condition (lt $x 0))) (return $x)) (entry "m"))"#;
         let task = Task::new(Arc::new(compile(&parse(text).unwrap(), vec![]).unwrap()));
@@ -227,7 +227,7 @@ mod tests {
             Some(Failure::Impossible { barrier: 0, causes, .. }) => {
                 causes.into_iter().map(|(_, n)| n).collect::<Vec<_>>()
             }
-            other => panic!("{other:?}"),
+            failure => panic!("{failure:?}"),
         };
         // Both conditions are in line 0.
         assert_eq!(causes(enumerate(&task, 10, &mut |_| true).err()), [10]);
@@ -244,8 +244,8 @@ mod tests {
         );
         let possible = text.replace("(lt $x 0)", "(lt $x 1)");
         let task = Task::new(Arc::new(compile(&parse(&possible).unwrap(), vec![]).unwrap()));
-        let found = enumerate(&task, 100, &mut |_| true).unwrap();
-        assert!(found.runs == 1 && (found.log_evidence - 0.1f64.ln()).abs() < 1e-9);
+        let result = enumerate(&task, 100, &mut |_| true).unwrap();
+        assert!(result.runs == 1 && (result.log_evidence - 0.1f64.ln()).abs() < 1e-9);
     }
 
     fn likely(text: &str, runs: usize) -> Enumerated {
@@ -253,53 +253,52 @@ mod tests {
         visit(&task, Visit::Likely { runs, rest: 0.0 }, &mut |_| true).unwrap()
     }
 
-    /// A geometric recursion, whose runs are endlessly many: run `n` has probability 2^-n, and each heads halves its score.
+    /// A geometric recursion with infinitely many runs: run `n` has probability 2^-n, and each heads halves its score.
     const ENDLESS: &str = r#"(module (fn "m" (params $n)
         (if (sample (dist bernoulli 0.5)) (then (do (factor -0.6931471805599453)) (return (call "m" (add $n 1)))) (else (return $n))))
         (fn "main" (params) (return (call "m" 0))) (entry "main"))"#;
 
-    /// The claim: the likeliest runs come first; what is left has exactly the prior probability and the joint probability
-    /// that the laws say: 2^-n and 4^-n.
+    /// The most probable runs come first. Unvisited runs have the exact prior probability 2^-n and joint probability 4^-n.
     #[test]
-    fn a_part_of_endlessly_many_runs_is_bounded() {
+    fn unvisited_runs_are_bounded() {
         for n in [1, 2, 5, 20] {
-            let found = likely(ENDLESS, n);
-            let values: Vec<String> = found.outcomes.iter().map(|(value, _)| repr(value).unwrap()).collect();
+            let result = likely(ENDLESS, n);
+            let values: Vec<String> = result.outcomes.iter().map(|(value, _)| repr(value).unwrap()).collect();
             assert_eq!(values, (0..n).map(|i| i.to_string()).collect::<Vec<_>>());
-            assert!((found.unseen - 0.5f64.powi(n as i32)).abs() < 1e-9);
-            // The rest of a run adds at most nothing: its branch has the score of the heads before it. Sums are exact to
-            // parts of 2^-32, so each flip may add such an error.
-            assert!((found.log_unseen - (n as f64 * 0.25f64.ln() + 2f64.ln())).abs() < 1e-8 * n as f64);
+            assert!((result.unseen - 0.5f64.powi(n as i32)).abs() < 1e-9);
+            // A later score is at most zero: a branch has the score of the heads before it. Sums are rounded to multiples of
+            // 2^-32, so each flip may add such an error.
+            assert!((result.log_unseen - (n as f64 * 0.25f64.ln() + 2f64.ln())).abs() < 1e-8 * n as f64);
             let whole = (2.0f64 / 3.0).ln();
-            assert!(found.log_evidence <= whole + 1e-8);
-            assert!(log_sum_exp([found.log_evidence, found.log_unseen].into_iter()) >= whole - 1e-8);
+            assert!(result.log_evidence <= whole + 1e-8);
+            assert!(log_sum_exp([result.log_evidence, result.log_unseen].into_iter()) >= whole - 1e-8);
         }
     }
 
-    /// The claim: whole numbers without a bound are listed, and the tail is what is left.
+    /// Whole numbers without an upper bound are listed; the probability of the tail is exact.
     #[test]
     fn a_poisson_number_is_listed() {
         let text = r#"(module (fn "m" (params) (return (sample (dist poisson 3.0)))) (entry "m"))"#;
-        let found = likely(text, 12);
+        let result = likely(text, 12);
         let law = Dist::Poisson { rate: 3.0 };
-        let mut left = 1.0;
-        for (value, log) in &found.outcomes {
+        let mut tail = 1.0;
+        for (value, log) in &result.outcomes {
             let Value::Int(n) = value else { panic!("{value:?}") };
             assert!((log - law.log_density_of_int(*n)).abs() < 1e-9);
-            left -= log.exp();
+            tail -= log.exp();
         }
-        assert!(found.outcomes.len() == 12 && (found.unseen - left).abs() < 1e-9 && left > 0.0);
+        assert!(result.outcomes.len() == 12 && (result.unseen - tail).abs() < 1e-9 && tail > 0.0);
     }
 
-    /// The claim: where branches are given up their probability stays in the bounds; a program with few runs is whole.
+    /// Dropped branches count as unvisited; a program with few runs is enumerated completely.
     #[test]
-    fn what_is_given_up_is_counted() {
+    fn dropped_branches_count_as_unvisited() {
         let text = r#"(module (fn "m" (params) (set $s 0) (for $i (range 14) (body
             (set $s (add $s (sample (dist discrete_uniform 0 1)))))) (return $s)) (entry "m"))"#;
-        let found = likely(text, 10);
-        let seen: f64 = found.outcomes.iter().map(|(_, log)| log.exp()).sum();
-        assert!(found.runs == 10 && (seen - 10.0 / 16384.0).abs() < 1e-12, "{seen}");
-        assert!((found.unseen + seen - 1.0).abs() < 1e-9, "{}", found.unseen);
+        let result = likely(text, 10);
+        let seen: f64 = result.outcomes.iter().map(|(_, log)| log.exp()).sum();
+        assert!(result.runs == 10 && (seen - 10.0 / 16384.0).abs() < 1e-12, "{seen}");
+        assert!((result.unseen + seen - 1.0).abs() < 1e-9, "{}", result.unseen);
         let whole = likely(text, 20_000);
         assert!(whole.runs == 16384 && whole.unseen == 0.0 && whole.log_unseen == f64::NEG_INFINITY);
     }

@@ -1,4 +1,4 @@
-//! Why a search gives no result.
+//! Failures: the reasons why a search gives no result.
 
 use crate::log::Entry;
 use niwaki_vm::fault::Fault;
@@ -6,31 +6,31 @@ use niwaki_vm::machine::stack::RunFault;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
-/// Why a search gives no result.
+/// The reason why a search gives no result.
 #[derive(Clone, Debug)]
 pub enum Failure {
     /// The program met a fault.
     Run(Box<RunFault>),
-    /// A setting makes no sense, or the algorithm does not suit the task.
+    /// A setting is invalid, or the algorithm does not suit the task.
     Setting(Fault),
     /// Every particle, or every run, is impossible.
     Impossible {
         /// The barrier at which the last particle died, from 1; 0 for runs, which have none.
         barrier: usize,
-        /// What made them impossible: constraint and count, most frequent first.
+        /// Constraints that made them impossible, with counts, most frequent first.
         causes: Vec<(String, usize)>,
-        /// Some of the runs, until `blame` is read from them.
+        /// A sample of the impossible runs, from which `blame` is computed.
         dead: Vec<Dead>,
-        /// Where parts that break a constraint are emitted, most frequent first, and of how many runs.
+        /// The parts that break a constraint, most frequent first, and the number of runs that were examined.
         blame: (Vec<Blame>, usize),
-        /// The populations that were tried, of which this is the first.
+        /// All populations that were tried; this failure is from the first.
         attempts: Vec<Attempt>,
     },
     /// A chain has no state to start from.
     NoStart {
-        /// How many forward runs were tried; none where the run was given.
+        /// The number of forward runs that were tried; 0 where the caller gave the run.
         tries: u64,
-        /// What made them impossible: constraint and count, most frequent first.
+        /// Constraints that made them impossible, with counts, most frequent first.
         causes: Vec<(String, usize)>,
     },
 }
@@ -38,29 +38,29 @@ pub enum Failure {
 /// A run that became impossible.
 #[derive(Clone, Debug)]
 pub struct Dead {
-    /// What made it impossible: the name of a sketch, or of a factor.
+    /// The name of the sketch or factor that made the run impossible.
     pub cause: String,
     /// Its choices.
     pub entries: Vec<Entry>,
 }
 
-/// Where parts that break a constraint are emitted, and in how many runs.
+/// A part that breaks a constraint, and the number of runs in which it does.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Blame {
     /// The name of the constraint.
     pub constraint: String,
     /// The part that breaks it.
     pub part: Emitted,
-    /// The part before it that it breaks it with, where one alone does not.
+    /// The earlier part that breaks the constraint together with `part`; `None` where `part` alone breaks it.
     pub other: Option<Emitted>,
-    /// In how many of the runs.
+    /// The number of runs.
     pub runs: usize,
 }
 
-/// Where a part is emitted.
+/// The place in the source where a part is emitted.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Emitted {
-    /// The readable address of one such part.
+    /// The readable address of a part that is emitted there.
     pub path: String,
     /// Qualified name of the function.
     pub function: String,
@@ -71,7 +71,7 @@ pub struct Emitted {
 }
 
 impl Emitted {
-    /// Number of its source file, and its place there.
+    /// The number of the source file, and the place in the file.
     pub(crate) fn place(&self) -> (u32, [u32; 4]) {
         (self.file, self.span)
     }
@@ -80,16 +80,17 @@ impl Emitted {
 /// A population of a search for the best.
 #[derive(Clone, Debug)]
 pub struct Attempt {
-    /// Its form.
+    /// The form of the population.
     pub form: &'static str,
-    /// Its particles.
+    /// The number of particles.
     pub particles: usize,
-    /// The barrier at which its last particle died; `None` where it lived.
+    /// The barrier at which the last particle died; `None` where a particle survived.
     pub died_at: Option<usize>,
 }
 
 impl Failure {
-    /// Every particle is impossible at this barrier (0: every run is); `causes` are constraints with counts.
+    /// Fail because every particle is impossible at this barrier; at barrier 0, because every run is. `causes` are
+    /// constraints with counts.
     pub fn impossible<'a>(barrier: usize, causes: impl Iterator<Item = (&'a str, usize)>) -> Failure {
         let mut counts: HashMap<&str, usize> = HashMap::new();
         causes.for_each(|(cause, n)| *counts.entry(cause).or_insert(0) += n);
@@ -98,12 +99,12 @@ impl Failure {
         Failure::Impossible { barrier, causes, dead: vec![], blame: (vec![], 0), attempts: vec![] }
     }
 
-    /// A run that was given is impossible: nothing was tried.
+    /// Fail because the run that the caller gave is impossible.
     pub fn no_start() -> Failure {
         Failure::NoStart { tries: 0, causes: vec![] }
     }
 
-    /// Whether every run or particle was impossible, by scores or because it was invalid.
+    /// Whether every run or particle was impossible, because of scores or because of invalid runs.
     pub fn is_impossible(&self) -> bool {
         match self {
             Failure::Run(met) => met.is_invalid(),

@@ -1,4 +1,4 @@
-//! Forward runs: every choice gets its value from a chooser, usually from its prior by the random stream at its address.
+//! Forward runs: a chooser gives every choice its value, usually from the prior with the random stream at the address.
 
 use crate::Failure;
 use crate::chooser::{Chooser, Context, Prior};
@@ -13,31 +13,32 @@ use niwaki_vm::machine::state::State;
 use niwaki_vm::machine::{Machine, Stop};
 use niwaki_vm::value::Value;
 
-/// Answers the machine's questions and keeps the record.
+/// Answers of a forward run: a chooser gives the values, and a record collects choices and scores.
 pub struct Forward<'a, C> {
-    /// The record so far.
+    /// The record of the run so far.
     pub record: &'a mut Record,
     /// The chooser of all values.
     pub chooser: C,
-    /// Log of prior over proposal, `log p - log q`, of the choices so far, nats; zero where all are from their priors.
+    /// Log of prior over proposal, `log p - log q`, of the choices so far, nats; zero if all choices are from the prior.
     pub log_ratio: f64,
     /// Host functions.
     pub hosts: &'a dyn Hosts,
     /// Whether emits, factors and observations pause the run.
     pub barriers: bool,
-    /// Whether the run goes on when its score is minus infinity.
+    /// Whether the run continues after a score of minus infinity.
     pub complete: bool,
 }
 
 impl<C: Chooser> Forward<'_, C> {
-    /// Runs depth first until the run ends or pauses: where it is impossible, at a barrier, or where the chooser pauses it.
+    /// Run depth first until the run ends or pauses. A run pauses when it is impossible, at a barrier, and where the chooser
+    /// pauses it.
     ///
     /// # Errors
     /// A fault of the program, or of the chooser.
     pub fn run(&mut self, task: &Task, machine: &mut Machine<'_>, state: &mut State) -> Result<(), Failure> {
-        let driven = machine.drive(state, self, |own, _, last| {
+        let driven = machine.drive(state, self, |answers, _, last| {
             let has_paused = matches!(last, Some((_, Stop::Paused)));
-            (!has_paused && (own.complete || own.record.cause.is_none())).then_some(0)
+            (!has_paused && (answers.complete || answers.record.cause.is_none())).then_some(0)
         });
         match driven {
             Err(met) if !self.complete => self.record.forgive(task, met),
@@ -63,7 +64,7 @@ pub(crate) fn factor_name(at: &At<'_, f64>, factor: Factor) -> String {
     }
 }
 
-/// The readable name of a held choice whose value is outside of its support.
+/// The readable name of a held choice with a value outside of its support.
 #[cold]
 pub fn held_name(path: &str, line: u32) -> String {
     format!("the held choice `{path}` at line {line}: its value is outside of its support")
@@ -81,15 +82,15 @@ fn outside(at: &At<'_, f64>) -> String {
     format!("the choice `{}` at line {}: a proposal outside of its support", at.path(), at.site.span.line)
 }
 
-/// The readable name of a factor of this kind at this line.
+/// The readable name of a factor by kind and line.
 pub fn named(factor: Factor, line: u32) -> String {
-    let what = match factor {
+    let word = match factor {
         Factor::Observe => "observe",
         Factor::Factor => "factor",
         Factor::Condition => "condition",
         Factor::Held => "a held choice",
     };
-    format!("`{what}` at line {line}")
+    format!("`{word}` at line {line}")
 }
 
 impl<C: Chooser> Answers<f64> for Forward<'_, C> {
@@ -135,8 +136,8 @@ impl<C: Chooser> Answers<f64> for Forward<'_, C> {
     }
 }
 
-/// One forward run from the prior, depth first; unless it is to be `complete`, it stops when its score becomes minus
-/// infinity, or where it is invalid.
+/// Run the program forward from the prior, depth first. Unless `complete` is true, the run stops when its score becomes minus
+/// infinity or when it is invalid.
 ///
 /// # Errors
 /// A fault of the program.
@@ -144,7 +145,8 @@ pub fn forward(task: &Task, seed: u64, stream: u64, complete: bool) -> Result<Ru
     Ok(Run { log_weight: 0.0, ..forward_by(task, Prior(StreamKey::new(seed, stream, 0)), complete)? })
 }
 
-/// One forward run by a chooser, as [`forward`]. Its weight is its score times prior over proposal of its choices.
+/// Run the program forward with the values of a chooser, like [`forward`]. The weight of the run is its score times prior over
+/// proposal of its choices.
 ///
 /// # Errors
 /// A fault of the program, or of the chooser.

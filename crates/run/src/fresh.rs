@@ -1,4 +1,4 @@
-//! New choices of a kept run: known values, else draws from their distributions.
+//! New choices of a kept run: known values where they exist, else draws from the prior.
 
 use crate::chooser::{Chooser, Known, Prior};
 use crate::task::Hosts;
@@ -8,25 +8,25 @@ use niwaki_vm::machine::answers::{Answer, Answers, At};
 use niwaki_vm::value::Value;
 use std::collections::HashMap;
 
-/// Gives values to the new choices of a kept run: known ones, else draws from their distributions.
+/// Answers for the new choices of a kept run: known values where they exist, else draws from the prior.
 pub struct Fresh<'a> {
     /// The chooser of the new values.
     pub chooser: Known<'a, Prior>,
     /// Host functions.
     pub hosts: &'a dyn Hosts,
-    /// Where to note the spread of each site's distribution, by the site's key.
+    /// The spread of each site's distribution by the key of the site; `None` where spreads are not recorded.
     pub spreads: Option<&'a mut HashMap<u128, f64>>,
 }
 
 impl<'a> Fresh<'a> {
-    /// New choices from that stream, and nothing noted.
+    /// Draw all new choices from this stream.
     pub fn plain(key: StreamKey, hosts: &'a dyn Hosts) -> Fresh<'a> {
         Fresh::of(key, None, hosts)
     }
 
-    /// The same, where some choices are known.
+    /// Draw new choices from this stream, except those with known values.
     pub fn of(key: StreamKey, known: Option<&'a HashMap<u128, Value>>, hosts: &'a dyn Hosts) -> Fresh<'a> {
-        Fresh { chooser: Known { values: known, otherwise: Prior(key) }, hosts, spreads: None }
+        Fresh { chooser: Known { values: known, fallback: Prior(key) }, hosts, spreads: None }
     }
 }
 
@@ -47,11 +47,11 @@ impl Answers<f64> for Fresh<'_> {
 
 /// The approximate spread of a distribution, in the coordinate in which its values drift.
 pub fn spread(dist: &Dist) -> f64 {
-    let own = if dist.family().space() == Space::Components { None } else { dist.scale() };
-    own.unwrap_or(1.0)
+    let scale = if dist.family().space() == Space::Components { None } else { dist.scale() };
+    scale.unwrap_or(1.0)
 }
 
-/// The same in the choice's own coordinate, for steps that may leave the support.
+/// The spread in the coordinate of the value itself, for steps that may leave the support.
 pub(crate) fn plain_spread(dist: &Dist) -> f64 {
     match (dist.family().space(), dist.support()) {
         (Space::Bounded, Support::Reals(Interval { lo: Some(lo), hi: Some(hi) })) => (hi - lo) * 0.3,

@@ -38,7 +38,7 @@ pub fn last(address: &str) -> &str {
     address.rsplit('/').next().unwrap_or(address)
 }
 
-/// The three of `known` that are nearest to `pattern`, by the edits that lead from one to the other.
+/// The three addresses of `known` with the smallest edit distance to `pattern`.
 pub fn nearest(pattern: &str, known: &[String]) -> Vec<String> {
     let by_name = !pattern.contains('/');
     let mut ranked: Vec<(usize, &String)> = known
@@ -50,7 +50,7 @@ pub fn nearest(pattern: &str, known: &[String]) -> Vec<String> {
     ranked.into_iter().take(3).map(|(_, address)| address.clone()).collect()
 }
 
-/// Levenshtein's distance.
+/// The Levenshtein distance.
 fn edits(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();
@@ -67,11 +67,10 @@ fn edits(a: &str, b: &str) -> usize {
 
 #[cfg(test)]
 mod tests {
-    //! Stars stay within a component, double stars do not, brackets are plain.
     use super::*;
 
     #[test]
-    fn patterns_match_what_they_say() {
+    fn stars_match_within_a_component_and_double_stars_across() {
         for (pattern, address, expected) in [
             ("x", "x", true),
             ("x", "a/b/x", true),
@@ -96,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_are_named() {
+    fn nearest_addresses_come_first() {
         let known: Vec<String> =
             ["tree/width", "tree/height", "tree/depth", "colour"].map(String::from).into();
         assert_eq!(nearest("heigt", &known), ["tree/height", "tree/depth", "tree/width"]);

@@ -1,4 +1,4 @@
-//! Tasks with choices held: see [`niwaki_vm::machine::held`].
+//! Tasks with held choices: see [`niwaki_vm::machine::held`].
 
 use crate::Task;
 use crate::select::{labels, no_choice};
@@ -7,10 +7,10 @@ use niwaki_vm::machine::held::Held;
 use niwaki_vm::value::Value;
 use std::sync::Arc;
 
-/// The task with choices held, given by their readable addresses, in place of those that it held before.
+/// Replace the held choices of a task. `choices` are readable addresses with values.
 ///
 /// # Errors
-/// An address that no run of the program can have, with those that are nearest.
+/// An address that no run of the program can have; the message names the nearest addresses.
 pub fn hold(task: &Task, choices: Vec<(String, Value)>) -> Result<Task, Fault> {
     let held = Held::new(&task.program, choices);
     let held = held.map_err(|path| no_choice(&path, &labels(&task.program)))?;

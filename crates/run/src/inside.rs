@@ -1,31 +1,31 @@
-//! What every run that has an `infer` inside keeps to, whichever method the `infer` has: limits, and faults.
+//! Limits and faults of nested inference, the same for every method of the inner `infer`.
 
 use crate::Failure;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
 
-/// How many `infer` may be inside one another. Each takes some of the host's stack.
+/// The deepest nesting of `infer`. Each level uses the stack of the host.
 const DEPTH: usize = 16;
 
-/// Bytes that the runs of an `infer` have at least, so that many inside one another end by their depth.
+/// The smallest memory budget of the runs of an `infer`, so that deep nesting ends at its depth limit.
 const SMALLEST: usize = 1 << 20;
 
-/// What an `infer` does, as far as a recorded run needs to know.
+/// The kind of an `infer`, for recorded runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inside {
-    /// It visits all runs, at most so many: its result has a derivative.
+    /// The inference enumerates all runs, so its result has a derivative.
     Enumeration {
-        /// Most runs.
+        /// The most runs.
         max_runs: usize,
     },
-    /// It draws random numbers.
+    /// The inference draws random numbers.
     Random,
 }
 
-/// The limits of the runs of an `infer` inside of a run with these limits, itself inside of so many.
+/// The limits of the runs of an `infer` inside a run with these limits. `depth` is the nesting of the outer run.
 ///
 /// # Errors
-/// Too many are inside one another.
+/// Too deep a nesting.
 pub fn limits_inside(limits: Limits, depth: usize) -> Result<Limits, Fault> {
     if depth == DEPTH {
         return Err(Fault::new("infer-failed", format!("more than {DEPTH} `infer` are inside one another")));
@@ -34,19 +34,19 @@ pub fn limits_inside(limits: Limits, depth: usize) -> Result<Limits, Fault> {
     Ok(Limits { bytes, ..limits })
 }
 
-/// The fault of a run whose inferences took more steps than it may take, with those of the model `name` inside.
+/// The fault of a run that exceeds its step budget together with the runs of the inner model `name`.
 pub fn too_long(name: &str, steps: u64) -> Fault {
     let message = format!("with the runs of `infer` of `{name}` the model took more than {steps} steps");
     Fault::new("step-budget", message).with_help("search with fewer runs inside, or raise `max_steps`")
 }
 
-/// The failure of an inner search as a fault of the run around it.
+/// Convert the failure of an inner search to a fault of the outer run.
 pub fn fault_of(name: &str, failure: Failure) -> Fault {
     match failure {
         Failure::Run(inner) => {
             let line = inner.stack.last().map_or(0, |call| call.span.line);
             let message = format!("inside `infer` of `{name}`, at line {line}: {}", inner.fault.message);
-            // What all of its runs meet, the run around it meets.
+            // A fault of all inner runs is a fault of the outer run.
             let fault = Fault::new(inner.fault.code, message).caused_by(&inner.fault);
             match &inner.fault.help {
                 Some(help) => fault.with_help(help.clone()),

@@ -1,17 +1,17 @@
-//! A task and its runs: what every algorithm asks and answers.
+//! A task and its runs, shared by every search algorithm.
 //!
-//! * [`task`]: what a search runs on: a program, its arguments, the sketches that score its scene; [`hold`]: with choices held;
-//! * [`log`]: the choices of a run, shared between copies of a particle; [`record`]: choices and score of a run;
-//! * [`chooser`]: where a choice gets its value; [`fresh`]: the new choices of a kept run;
-//! * [`forward`]: a run of new choices; [`replay`]: take every choice from a log, and name it; [`run`]: a finished run;
-//! * [`enumeration`], [`rejection`]: exact answers, the oracles for the rest;
-//! * [`weights`], [`resampling`]: what runs weigh, and which of many survive; [`order`]: which future runs next;
-//! * [`streams`]: the random streams that belong to no run;
+//! * [`task`]: a program, its arguments and the sketches that score its scene; [`hold`]: tasks with held choices;
+//! * [`log`]: the choices of a run, shared between copies of a particle; [`record`]: the choices and the score of a run;
+//! * [`chooser`]: the sources of the values of choices; [`fresh`]: the new choices of a kept run;
+//! * [`forward`]: runs that draw all choices; [`replay`]: runs that take all choices from a log; [`run`]: finished runs;
+//! * [`enumeration`], [`rejection`]: exact answers, which the tests of all other methods compare with;
+//! * [`weights`], [`resampling`]: importance weights and resampling; [`order`]: the order policies of futures;
+//! * [`streams`]: random streams that belong to no run;
 //! * [`select`], [`glob`]: selections of choices by their addresses;
-//! * [`checkpoint`]: what a search needs to go on after it was killed;
-//! * [`failure`], [`blame`], [`losses`]: why a search gives no result, and which parts made runs impossible;
+//! * [`checkpoint`]: the data from which a killed search resumes;
+//! * [`failure`], [`blame`], [`losses`]: the reasons for a missing result, and the parts that made runs impossible;
 //! * [`mixed`]: observations that are probabilities in some runs and densities in others;
-//! * [`inside`]: what a run with an inference inside keeps to.
+//! * [`inside`]: limits and faults of nested inference.
 
 pub mod blame;
 pub mod checkpoint;

@@ -1,7 +1,7 @@
-//! The choices of a run: an append-only log that copies of a particle share.
+//! Logs: the choices of a run, append-only and shared between copies of a particle.
 //!
-//! Entries since the last copy belong to the particle alone; at a copy they are frozen and shared. Forking costs
-//! the entries since the last fork, not the length of the run.
+//! A particle alone holds the entries since its last copy; a copy freezes and shares them. The cost of a fork grows with the
+//! number of entries since the last fork, not with the length of the run.
 
 use niwaki_math::Draw;
 use niwaki_vm::value::{Census, Value};
@@ -10,42 +10,42 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use smallvec::SmallVec;
 use std::sync::Arc;
 
-/// Entries stored without an allocation: most barriers are a few choices apart.
-type Few = SmallVec<[Entry; 4]>;
+/// Entries since the last copy. A few need no allocation: most barriers are a few choices apart.
+type Recent = SmallVec<[Entry; 4]>;
 
-/// Own entries beyond this many are frozen: a list that grows without copies would be half empty.
+/// The most recent entries before they are frozen: a list that grows without copies would be half empty.
 const BLOCK: usize = 64;
 
-/// One choice.
+/// An entry: a choice with its address and value.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// Its address, in two halves (a `u128` would align the entry to 16 bytes).
+    /// The address, in two halves (a `u128` would align the entry to 16 bytes).
     halves: [u64; 2],
-    /// Its value. That of an order choice, which future ran, is a `Value::Future`, which no model can choose.
+    /// The value. An order choice has a `Value::Future`, which no model can choose: the place of the future that ran.
     pub value: Value,
 }
 
-// A population holds one for each choice of each particle.
+// A population holds an entry for each choice of each particle.
 const _: () = assert!(std::mem::size_of::<Entry>() == 32);
 
 impl Entry {
-    /// A choice.
+    /// Create an entry.
     #[inline]
     pub fn new(address: u128, value: Value) -> Self {
         Entry { halves: [address as u64, (address >> 64) as u64], value }
     }
 
-    /// Its address.
+    /// The address of the choice.
     pub fn address(&self) -> u128 {
         u128::from(self.halves[0]) | u128::from(self.halves[1]) << 64
     }
 
-    /// Whether it is an order choice.
+    /// Whether the entry is an order choice.
     pub fn is_order(&self) -> bool {
         self.which().is_some()
     }
 
-    /// Of an order choice, the place of the future that ran among those that could.
+    /// The place of the future that ran among the runnable futures; `None` unless the entry is an order choice.
     pub fn which(&self) -> Option<usize> {
         match self.value {
             Value::Future(which) => Some(which as usize),
@@ -54,7 +54,7 @@ impl Entry {
     }
 }
 
-/// Entries that do not change any more, and those before them.
+/// A block of frozen entries, and the blocks before it.
 #[derive(Debug)]
 struct Frozen {
     entries: Box<[Entry]>,
@@ -65,8 +65,8 @@ impl Drop for Frozen {
     fn drop(&mut self) {
         // A long chain must not be dropped by recursion.
         let mut next = self.before.take();
-        while let Some(mut one) = next.and_then(Arc::into_inner) {
-            next = one.before.take();
+        while let Some(mut block) = next.and_then(Arc::into_inner) {
+            next = block.before.take();
         }
     }
 }
@@ -75,50 +75,50 @@ impl Drop for Frozen {
 #[derive(Debug, Default)]
 pub struct Log {
     frozen: Option<Arc<Frozen>>,
-    own: Few,
+    recent: Recent,
 }
 
 impl Log {
-    /// Adds a choice.
+    /// Add a choice.
     #[inline]
     pub fn push(&mut self, address: u128, value: Value) {
-        if self.own.len() == BLOCK {
+        if self.recent.len() == BLOCK {
             self.freeze();
         }
-        self.own.push(Entry::new(address, value));
+        self.recent.push(Entry::new(address, value));
     }
 
-    /// Adds an order choice: the place of the future that ran among those that could.
+    /// Add an order choice: the place of the future that ran among the runnable futures.
     pub fn push_order(&mut self, address: u128, which: usize) {
         self.push(address, Value::Future(which as u32));
     }
 
-    /// A copy; both share what is there now.
+    /// Copy the log; both logs share the present entries.
     pub fn fork(&mut self) -> Log {
         self.freeze();
-        Log { frozen: self.frozen.clone(), own: Few::new() }
+        Log { frozen: self.frozen.clone(), recent: Recent::new() }
     }
 
     fn freeze(&mut self) {
-        if !self.own.is_empty() {
+        if !self.recent.is_empty() {
             // With no spare capacity.
-            let mut entries = Vec::with_capacity(self.own.len());
-            entries.extend(self.own.drain(..));
+            let mut entries = Vec::with_capacity(self.recent.len());
+            entries.extend(self.recent.drain(..));
             let entries = entries.into_boxed_slice();
             self.frozen = Some(Arc::new(Frozen { entries, before: self.frozen.take() }));
         }
     }
 
-    /// Becomes a copy of `other`; both share what is there now.
+    /// Become a copy of `other`; both logs share the present entries.
     pub fn become_copy(&mut self, other: &mut Log) {
         other.freeze();
-        self.own.clear();
+        self.recent.clear();
         self.frozen.clone_from(&other.frozen);
     }
 
-    /// Counts its bytes; what copies share counts once.
+    /// Count the bytes of the log; shared blocks count once.
     pub fn count<'v>(&'v self, census: &mut Census<'v>) {
-        let mut parts = vec![&self.own[..]];
+        let mut parts = vec![&self.recent[..]];
         let mut at = self.frozen.as_ref();
         while let Some(frozen) = at.filter(|frozen| census.is_first(frozen)) {
             census.add_bytes(size_of::<Frozen>() + 16);
@@ -131,9 +131,9 @@ impl Log {
         }
     }
 
-    /// How many entries.
+    /// The number of entries.
     pub fn len(&self) -> usize {
-        let (mut count, mut at) = (self.own.len(), self.frozen.as_deref());
+        let (mut count, mut at) = (self.recent.len(), self.frozen.as_deref());
         while let Some(frozen) = at {
             count += frozen.entries.len();
             at = frozen.before.as_deref();
@@ -141,14 +141,14 @@ impl Log {
         count
     }
 
-    /// Whether there is none.
+    /// Whether the log has no entries.
     pub fn is_empty(&self) -> bool {
-        self.own.is_empty() && self.frozen.is_none()
+        self.recent.is_empty() && self.frozen.is_none()
     }
 
-    /// Every entry, oldest first.
+    /// All entries, oldest first.
     pub fn entries(&self) -> Vec<Entry> {
-        let mut parts: Vec<&[Entry]> = vec![&self.own];
+        let mut parts: Vec<&[Entry]> = vec![&self.recent];
         let mut at = self.frozen.as_deref();
         while let Some(frozen) = at {
             parts.push(&frozen.entries);
@@ -158,7 +158,7 @@ impl Log {
     }
 }
 
-/// Choices in the order made.
+/// Collect choices in order.
 impl FromIterator<(u128, Value)> for Log {
     fn from_iter<T: IntoIterator<Item = (u128, Value)>>(choices: T) -> Log {
         let mut log = Log::default();
@@ -167,7 +167,7 @@ impl FromIterator<(u128, Value)> for Log {
     }
 }
 
-/// The value of an entry as data; reals as the numbers of their bits.
+/// The value of an entry as data; reals are stored as their bits.
 #[derive(Serialize, Deserialize)]
 enum Plain {
     Bool(bool),
@@ -194,7 +194,7 @@ impl Plain {
     }
 }
 
-/// A list of whole numbers, or of truth values, which as a draw would be real numbers.
+/// A row of whole numbers or of truth values as data; as a draw it would become a row of reals.
 fn of_one_kind(value: &Value) -> Option<Plain> {
     let Value::Tuple(all) = value else { return None };
     let counts = all.items().iter().map(|x| if let Value::Int(k) = x { Some(*k) } else { None });
@@ -234,7 +234,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn copies_share_the_past_and_not_the_future() {
+    fn copies_share_entries_before_the_copy_only() {
         let mut a = Log::default();
         a.push(1, Value::Int(1));
         let mut b = a.fork();

@@ -1,4 +1,4 @@
-//! Partial runs that became impossible while others of their population lived: how many, by what, and by which parts.
+//! Losses: partial runs that became impossible while other particles of the population survived, with their causes.
 
 use crate::Task;
 use crate::blame::blame;
@@ -7,33 +7,33 @@ use crate::record::Record;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Most runs that are looked at: a search that has a result shall not wait for more of them.
-const LOOKED_AT: usize = 50;
+/// The most runs that are examined: a search with a result does not wait for more.
+const EXAMINED: usize = 50;
 
-/// What is kept of runs that became impossible: all are counted, and of some the choices are kept, evenly over the time.
+/// Counts of runs that became impossible, and a sample of these runs, spread evenly over the search.
 #[derive(Clone, Debug, Default)]
 pub struct Losses {
     counts: BTreeMap<String, usize>,
-    kept: Vec<Dead>,
-    /// So many were lost.
-    seen: usize,
-    /// One of 2 to this power is kept.
-    thinned: u32,
+    sample: Vec<Dead>,
+    /// The number of lost runs.
+    total: usize,
+    /// The sample has every `2^thinning`-th lost run.
+    thinning: u32,
 }
 
-/// What a person reads of them.
+/// A report of losses.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Lost {
-    /// What made them impossible: constraint and count, most frequent first.
+    /// Constraints that made runs impossible, with counts, most frequent first.
     pub causes: Vec<(String, usize)>,
-    /// Where parts that break a constraint are emitted, most frequent first.
+    /// The parts that break a constraint, most frequent first.
     pub blame: Vec<Blame>,
-    /// Of how many runs.
+    /// The number of runs that were examined for parts.
     pub looked_at: usize,
 }
 
 impl Losses {
-    /// Notes a run that has become impossible.
+    /// Add a run that has become impossible.
     #[cold]
     pub fn note(&mut self, record: &Record) {
         let cause = record.cause.as_deref().unwrap_or("weights");
@@ -41,36 +41,36 @@ impl Losses {
             Some(count) => *count += 1,
             None => drop(self.counts.insert(cause.to_string(), 1)),
         }
-        if self.seen.is_multiple_of(1 << self.thinned) {
+        if self.total.is_multiple_of(1 << self.thinning) {
             self.keep(Dead { cause: cause.to_string(), entries: record.log.entries() });
         }
-        self.seen += 1;
+        self.total += 1;
     }
 
     fn keep(&mut self, dead: Dead) {
-        if self.kept.len() == LOOKED_AT {
+        if self.sample.len() == EXAMINED {
             let mut number = 0;
-            self.kept.retain(|_| {
+            self.sample.retain(|_| {
                 number += 1;
                 number % 2 == 1
             });
-            self.thinned += 1;
+            self.thinning += 1;
         }
-        self.kept.push(dead);
+        self.sample.push(dead);
     }
 
-    /// Those of another population, too.
+    /// Add the losses of another population.
     pub fn add(&mut self, other: Losses) {
         for (cause, count) in other.counts {
             *self.counts.entry(cause).or_insert(0) += count;
         }
-        self.seen += other.seen;
-        other.kept.into_iter().for_each(|dead| self.keep(dead));
+        self.total += other.total;
+        other.sample.into_iter().for_each(|dead| self.keep(dead));
     }
 
-    /// With the parts that break a constraint; they are looked for only here.
+    /// Report the losses, with the parts of the sample that break a constraint.
     pub fn explained(self, task: &Task) -> Lost {
-        let (blame, looked_at) = blame(task, &self.kept);
+        let (blame, looked_at) = blame(task, &self.sample);
         let mut causes: Vec<_> = self.counts.into_iter().collect();
         causes.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
         Lost { causes, blame, looked_at }

@@ -1,22 +1,22 @@
-//! Observations that have the probability of a single value in some runs, and a density in others.
+//! Mixed observations: the probability of a single value in some runs, a density in other runs.
 //!
-//! A model may observe one thing by different distributions, by what it chose before:
+//! A model may observe a value by different distributions, depending on earlier choices:
 //!
 //! ```text
 //! observe(Delta(10.0) if perfect else Uniform(0.0, 10.0), grade)
 //! ```
 //!
-//! The factor of a run in which `grade` is the one value of `Delta` is a probability; that of another run is a density, a
-//! number per unit of `grade`. No weight can compare the two: written in other units, the same model would have another
-//! posterior, and in truth the density counts nothing beside the probability.
+//! The factor is a probability in a run where `Delta` observes `grade`, and a density per unit of `grade` in any other run.
+//! Weights cannot compare the two: a change of units would change the posterior. In theory, the density is negligible beside
+//! the probability.
 //!
-//! Most programs cannot: [`niwaki_vm::code::observed`] tells without a run. Of the others a few runs from the prior show it: an
-//! observation is named by its activation and the text of what is observed, so that it is the same in two arms of an `if`. It is
-//! reported where one run has it only as a probability and another only as a density. Columns of data that are of different
-//! kinds in the same manner in all runs are not.
+//! For most programs [`niwaki_vm::code::observed`] excludes mixed observations without a run. For other programs a few runs from
+//! the prior are examined. An observation is identified by its activation and the text of the observed expression, so that it is
+//! the same in both arms of an `if`. An observation is reported where a run has it only as a probability and another run only
+//! as a density. Columns of data whose kinds are the same in all runs are not reported.
 //!
-//! Source: Wu et al. 2018, "Discrete-Continuous Mixtures in Probabilistic Programming", whose grades these are. differs: they
-//! weigh such runs by their numbers of densities; we say that it is so.
+//! Source: Wu et al. 2018, "Discrete-Continuous Mixtures in Probabilistic Programming", whose
+//! example these grades are. That paper weighs such runs by their number of densities; this module only reports them.
 
 use crate::Task;
 use crate::chooser::Prior;
@@ -32,36 +32,36 @@ use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::value::Value;
 use std::collections::HashMap;
 
-/// Runs that are looked at, at most.
+/// The most runs that are examined.
 const RUNS: u64 = 64;
 
-/// Steps that they may take together before no further one is begun.
+/// The number of steps of all runs after which no further run starts.
 const STEPS: u64 = 1_000_000;
 
 /// A place in a source file: the number of the file, and the span.
 pub type Place = (u32, Span);
 
-/// An observation that is a probability in some runs and a density in others: a place of each.
+/// A mixed observation, with a place for each of its kinds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Mixed {
-    /// Where it is the probability of a single value.
+    /// The place where it is the probability of a single value.
     pub probability: Place,
-    /// Where it is a density.
+    /// The place where it is a density.
     pub density: Place,
 }
 
-/// The kinds of one observation, and a place of each.
+/// The kinds of an observation, with a place for each.
 #[derive(Clone, Copy, Default)]
 struct Kinds {
     probability: Option<Place>,
     density: Option<Place>,
 }
 
-/// The first such observation of a task, if a few runs from the prior meet one.
+/// Find the first mixed observation of a task by a few runs from the prior.
 pub fn mixed(task: &Task, seed: u64) -> Option<Mixed> {
     let captures = task.model.iter().flat_map(|model| &model.captures);
-    let given: Vec<&Value> = task.args.iter().chain(captures).collect();
-    if !may_mix(&task.program, &given, task.held.is_some()) {
+    let inputs: Vec<&Value> = task.args.iter().chain(captures).collect();
+    if !may_mix(&task.program, &inputs, task.held.is_some()) {
         return None;
     }
     let (mut all, mut steps) = (HashMap::new(), 0);
@@ -69,30 +69,30 @@ pub fn mixed(task: &Task, seed: u64) -> Option<Mixed> {
         if steps > STEPS {
             return None;
         }
-        let (kinds, taken) = run(task, StreamKey::new(seed, stream, 0))?;
-        steps += taken;
-        let mut found: Vec<Mixed> = vec![];
-        for (key, own) in kinds {
-            // In one run both: not the same thing twice.
-            let alone = own.probability.is_some() != own.density.is_some();
+        let (kinds, run_steps) = run(task, StreamKey::new(seed, stream, 0))?;
+        steps += run_steps;
+        let mut candidates: Vec<Mixed> = vec![];
+        for (key, kinds) in kinds {
+            // Both kinds in the same run: not the same observation.
+            let alone = kinds.probability.is_some() != kinds.density.is_some();
             let known: &mut Kinds = all.entry(key).or_default();
             if alone {
-                known.probability = known.probability.or(own.probability);
-                known.density = known.density.or(own.density);
+                known.probability = known.probability.or(kinds.probability);
+                known.density = known.density.or(kinds.density);
             }
             if let (true, Some(probability), Some(density)) = (alone, known.probability, known.density) {
-                found.push(Mixed { probability, density });
+                candidates.push(Mixed { probability, density });
             }
         }
         let place = |mixed: &Mixed| (mixed.density.0, mixed.density.1.line, mixed.density.1.column);
-        if let Some(first) = found.into_iter().min_by_key(place) {
+        if let Some(first) = candidates.into_iter().min_by_key(place) {
             return Some(first);
         }
     }
     None
 }
 
-/// The observations of one run from the prior, and its steps; `None` where it met a fault.
+/// The observations of a run from the prior, and its steps; `None` after a fault.
 fn run(task: &Task, key: StreamKey) -> Option<(HashMap<u128, Kinds>, u64)> {
     let mut machine = task.machine();
     let mut state = task.start(&machine, true).ok()?;
@@ -133,7 +133,7 @@ impl Answers<f64> for Watch<'_> {
     }
 
     fn score(&mut self, at: &At<'_, f64>, factor: Factor, log: f64) -> Result<Answer<()>, Fault> {
-        // What is impossible is noted, too: of `Delta(10.0)` most values are.
+        // Impossible observations count, too: most values are impossible for `Delta(10.0)`.
         if log == f64::NEG_INFINITY && matches!(factor, Factor::Observe | Factor::Held) {
             return Ok(Answer::Go(()));
         }

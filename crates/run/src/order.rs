@@ -1,4 +1,4 @@
-//! Which future runs next: the order policies of particles.
+//! Order policies of particles: the choice of the future that runs next.
 //!
 //! A learned policy picks the future `f` of those that can run with probability
 //!
@@ -7,10 +7,10 @@
 //! l(f) = function(f) + depth ln(1 + depth(f)) + turns ln(1 + turns(f)) + waited ln(1 + waited(f)) + stay [f ran last]
 //! ```
 //!
-//! `depth` is how many futures are around it, `turns` how often it has run, `waited` how often others have run since it ran
-//! last or was created. It sees only what has happened, so the law of the choices is the same under any policy, and its
-//! probability never enters a weight (dissertation 5.3.1 and appendix C). It counts in one place: particle Gibbs draws
-//! ancestors for a held run, whose order is then less likely after some prefixes than after others.
+//! `depth` is the number of futures around `f`, `turns` the number of times `f` has run, `waited` the number of runs of other
+//! futures since `f` ran last or was created. A policy sees only the past, so the law of the choices is the same under any
+//! policy, and the probability of an order never enters a weight (dissertation 5.3.1 and appendix C). There is an
+//! exception: particle Gibbs draws ancestors for a held run, whose order is more probable after some prefixes than after others.
 
 use crate::setting::{Range, Ranges};
 use niwaki_vm::code::Program;
@@ -19,7 +19,7 @@ use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Which future runs next.
+/// An order policy.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Order {
     /// Futures run where they are created: ordinary SMC.
@@ -31,7 +31,7 @@ pub enum Order {
 }
 
 impl Order {
-    /// The policy, where it is a learned one.
+    /// The learned policy; `None` for other orders.
     pub fn policy(&self) -> Option<&Arc<Policy>> {
         match self {
             Order::Learned(policy) => Some(policy),
@@ -40,7 +40,7 @@ impl Order {
     }
 }
 
-/// As data: a word, or the numbers of a policy.
+/// An order as data: a word, or the numbers of a policy.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum OrderForm {
@@ -69,19 +69,19 @@ impl<'de> Deserialize<'de> for Order {
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(default, deny_unknown_fields)]
 pub struct Policy {
-    /// For futures that call the function of this qualified name; 0 for others.
+    /// Weights of futures by the qualified name of the function that they call; 0 for other functions.
     pub functions: BTreeMap<String, f64>,
-    /// Times the log of one more than the number of futures around it.
+    /// The coefficient of `ln(1 + number of futures around the future)`.
     pub depth: f64,
-    /// Times the log of one more than how often it has run.
+    /// The coefficient of `ln(1 + number of its turns)`.
     pub turns: f64,
-    /// Times the log of one more than how often others have run since it did.
+    /// The coefficient of `ln(1 + number of turns of other futures since its last turn)`.
     pub waited: f64,
-    /// For the future that ran last.
+    /// The weight of the future that ran last.
     pub stay: f64,
 }
 
-/// Numbers of a policy. Beyond them the other futures have no chance that a search could see.
+/// Numbers of a policy. Beyond this range, the probability of the other futures is negligible.
 const NUMBER: Range = Range::Real { low: -50.0, high: 50.0, ends: "[]" };
 
 impl Policy {
@@ -95,7 +95,7 @@ impl Policy {
     ];
 }
 
-/// What a policy has seen of a future.
+/// The past of a future, as a policy sees it.
 #[derive(Clone, Copy, Debug)]
 struct Seen {
     /// The part of `l` that does not change.
@@ -106,17 +106,17 @@ struct Seen {
     since: u32,
 }
 
-/// What a policy has seen of a run. Without a policy it sees nothing, and costs nothing.
+/// The past of a run, as an order policy sees it. Without a learned policy it is empty and costs nothing.
 #[derive(Debug, Default)]
 pub struct Past {
     policy: Option<Arc<Policy>>,
-    /// By the number of the future.
+    /// The past of each future, by number.
     futures: Vec<Option<Seen>>,
     /// The future that ran last.
     last: Option<FutureId>,
-    /// Its depth.
+    /// The depth of that future.
     last_depth: u32,
-    /// How many turns the run has had.
+    /// The number of turns so far.
     turn: u32,
 }
 
@@ -139,12 +139,12 @@ impl Clone for Past {
 }
 
 impl Past {
-    /// That of a run that has not begun.
+    /// The past at the start of a run.
     pub fn start(order: &Order) -> Past {
         Past { policy: order.policy().cloned(), ..Past::default() }
     }
 
-    /// Before a future runs: looks at those that can run now, of which the last one that ran has created the new ones.
+    /// Register the runnable futures before a turn: new futures were created by the future that ran last.
     pub fn look(&mut self, program: &Program, state: &State) {
         let Some(policy) = &self.policy else { return };
         let depth = self.last.map_or(0, |_| self.last_depth + 1);
@@ -162,7 +162,7 @@ impl Past {
         }
     }
 
-    /// After a future ran.
+    /// Register a turn of a future.
     pub fn ran(&mut self, future: FutureId, state: &State) {
         if self.policy.is_none() {
             return;
@@ -180,7 +180,7 @@ impl Past {
         }
     }
 
-    /// The logs of the weights of the futures that can run, in their order; nothing where all are alike.
+    /// The log weights of the runnable futures, in order; `None` where all weights are equal.
     pub fn logs(&self, state: &State) -> Option<Vec<f64>> {
         let policy = self.policy.as_ref()?;
         let log = |id: FutureId| {
@@ -192,7 +192,7 @@ impl Past {
         Some(state.runnable().iter().map(log).collect())
     }
 
-    /// The place among the futures that can run into whose share of all `u`, between 0 and 1, falls.
+    /// Draw a place among the runnable futures by inversion. `u` is uniform between 0 and 1.
     pub fn pick(&self, state: &State, u: f64) -> usize {
         match self.logs(state) {
             None => {
@@ -203,7 +203,7 @@ impl Past {
         }
     }
 
-    /// The log probability of running the future at that place.
+    /// The log probability that the future at a place runs next.
     pub fn log_probability(&self, state: &State, which: usize) -> f64 {
         match self.logs(state) {
             None => -(state.runnable().len() as f64).ln(),

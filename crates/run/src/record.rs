@@ -1,4 +1,4 @@
-//! The choices and scores of a run so far, the same for every algorithm.
+//! Records: the choices and scores of a run so far, the same for every algorithm.
 //!
 //! `log_prior` is the sum of the log densities of its choices, `log_score` that of factors, observations and
 //! sketches. The sums are exact, so their order does not matter.
@@ -27,22 +27,22 @@ pub struct Record {
     pub sketches: Sketches,
     /// Sum of the sketches' log scores, nats.
     pub log_sketches: Total,
-    /// How many primitives the scene has.
+    /// The number of primitives of the scene.
     pub primitives: usize,
-    /// What made the run impossible.
+    /// The name of the factor or sketch that made the run impossible.
     pub cause: Option<String>,
-    /// The fault, where that makes the run invalid.
+    /// The fault of an invalid run.
     pub invalid: Option<Arc<RunFault>>,
 }
 
 impl Record {
-    /// The record of a run that has not begun: it has the score of the empty scene.
+    /// Start the record of a run, with the score of the empty scene.
     pub fn start(specs: &[Arc<dyn SketchSpec>]) -> Self {
         let sketches = Sketches::start(specs);
         Record { log_sketches: sketches.total(), sketches, ..Record::default() }
     }
 
-    /// A copy; both share what neither changes.
+    /// Copy the record; both copies share unchanged data.
     pub fn fork(&mut self) -> Record {
         Record {
             log: self.log.fork(),
@@ -56,7 +56,7 @@ impl Record {
         }
     }
 
-    /// Becomes a copy of `other`; both share what neither changes.
+    /// Become a copy of `other`; both records share unchanged data.
     pub fn become_copy(&mut self, other: &mut Record) {
         self.log.become_copy(&mut other.log);
         self.log_prior.clone_from(&other.log_prior);
@@ -68,26 +68,26 @@ impl Record {
         self.invalid.clone_from(&other.invalid);
     }
 
-    /// Factors, observations and sketches: nats, minus infinity when impossible.
+    /// The log score, nats: factors, observations and sketches. Minus infinity for an impossible run.
     #[inline]
     pub fn log_score(&self) -> f64 {
         self.score().value()
     }
 
-    /// The same, exactly.
+    /// The log score as an exact sum.
     #[inline]
     pub fn score(&self) -> Total {
         self.log_factors.plus(&self.log_sketches)
     }
 
-    /// Adds a choice and its log density.
+    /// Add a choice and its log density.
     #[inline]
     pub fn choose(&mut self, address: u128, value: &Value, log_density: f64) {
         self.log_prior.add(grid(log_density));
         self.log.push(address, value.clone());
     }
 
-    /// Adds a factor. `name` gives its readable name; it is called only where the factor makes the run impossible.
+    /// Add a factor. `name` gives the readable name of the factor; it is called only if the factor makes the run impossible.
     #[inline]
     pub fn factor(&mut self, log: f64, name: impl FnOnce() -> String) {
         self.log_factors.add(log);
@@ -96,8 +96,7 @@ impl Record {
         }
     }
 
-    /// Handles a fault of the run. Where it makes the run invalid, the run is outside of the model's support: its score becomes
-    /// minus infinity, and it is counted.
+    /// Handle a fault of the run. A fault that makes the run invalid gives the run a score of minus infinity, and counts it.
     ///
     /// # Errors
     /// Any other fault.
@@ -109,7 +108,7 @@ impl Record {
         Ok(())
     }
 
-    /// Adds a primitive to the scene. Once the score is minus infinity, later sketches are not evaluated.
+    /// Add a primitive to the scene. After a score of minus infinity, further sketches are not evaluated.
     pub fn emit(&mut self, shapes: &[Shape]) {
         self.primitives += 1;
         if self.sketches.is_empty() {
@@ -122,38 +121,40 @@ impl Record {
     }
 }
 
-/// Finds out whether all runs of a search were invalid. A fault in every run is a fault of the model, so the first one is
-/// reported.
+/// A check whether all runs of a search were invalid. A fault in every run is a fault of the model, so the check reports the
+/// first fault.
 #[derive(Default)]
 pub struct AllInvalid {
     first: Option<Arc<RunFault>>,
-    others: bool,
+    has_valid: bool,
 }
 
 impl AllInvalid {
-    /// Notes a run and its fault, if it is invalid.
+    /// Add a run, with its fault if the run is invalid.
     pub fn note(&mut self, invalid: Option<&Arc<RunFault>>) {
         match invalid {
             Some(met) => {
                 self.first.get_or_insert_with(|| met.clone());
             }
-            None => self.others = true,
+            None => self.has_valid = true,
         }
     }
 
+    /// Check that a run was valid, or that there was no run.
+    ///
     /// # Errors
-    /// There were runs, and all of them were invalid.
+    /// The fault of the first run, where all runs were invalid.
     pub fn check(self) -> Result<(), Failure> {
         match self.first {
-            Some(met) if !self.others => Err(Failure::Run(Box::new((*met).clone()))),
+            Some(met) if !self.has_valid => Err(Failure::Run(Box::new((*met).clone()))),
             _ => Ok(()),
         }
     }
 
-    /// [`AllInvalid::check`] of runs by what made each invalid.
+    /// Check all runs of a search; `invalid` has the fault of each invalid run.
     ///
     /// # Errors
-    /// As there.
+    /// The errors of [`AllInvalid::check`].
     pub fn check_all<'a>(invalid: impl Iterator<Item = Option<&'a Arc<RunFault>>>) -> Result<(), Failure> {
         let mut all = AllInvalid::default();
         invalid.for_each(|met| all.note(met));
@@ -164,7 +165,7 @@ impl AllInvalid {
 /// The log score of sketches, nats.
 ///
 /// # Errors
-/// One of them scores NaN.
+/// A sketch scores NaN.
 pub fn score_of(sketches: &Sketches) -> Result<Total, Fault> {
     let total = sketches.total();
     if total.value().is_nan() {
@@ -176,7 +177,7 @@ pub fn score_of(sketches: &Sketches) -> Result<Total, Fault> {
     Ok(total)
 }
 
-/// A factor, on the grid: it must be a number below plus infinity.
+/// Round a factor to the grid. A factor is a number below plus infinity.
 ///
 /// # Errors
 /// NaN or plus infinity.

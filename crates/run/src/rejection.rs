@@ -7,22 +7,22 @@ use crate::streams::Reserved;
 use crate::{Failure, Task};
 use niwaki_vm::fault::Fault;
 
-/// Exact samples.
+/// The result of rejection sampling.
 pub struct Accepted {
     /// The samples.
     pub runs: Vec<Run>,
-    /// How many runs it took.
+    /// The number of runs.
     pub tries: u64,
-    /// Whether the search was stopped before it had all samples.
+    /// Whether `watch` stopped the search before it had all samples.
     pub interrupted: bool,
 }
 
-/// `n` exact samples, where no run scores above `bound` nats (zero serves for conditions). Gives up after `max_tries`
-/// runs. `watch` is called with the number of runs after each; when it returns false, the samples so far are returned.
+/// Draw `n` exact samples. No run may score above `bound` nats; the bound of conditions is zero. The search fails after
+/// `max_tries` runs. `watch` is called with the number of runs after each run; when it returns false, the samples so far are
+/// returned.
 ///
 /// # Errors
-/// A run that scores above the bound, too many tries, or a fault of the program: also of runs that are
-/// all invalid.
+/// A run that scores above the bound; too many tries; a fault of the program, also where all runs are invalid.
 pub fn rejection(
     task: &Task,
     n: usize,

@@ -1,6 +1,6 @@
-//! Replays: every choice is taken from a log, by its address. A replay gives readable addresses, the parts of the scene
-//! and the queries. It runs depth first, in whatever order the first run chose; only the log of a run that was stopped is
-//! followed future by future, each as far as its choices go.
+//! Replays: runs that take every choice from a log, by address. A replay gives readable addresses, the parts of the scene and
+//! the queries. Replays run depth first, whatever the order of the original run was. Only the log of a stopped run is replayed
+//! future by future, each as far as its choices reach.
 
 use crate::Failure;
 use crate::chooser::{Chooser, Chosen, Context, Prior, Refuse};
@@ -22,26 +22,26 @@ use std::collections::HashMap;
 /// A choice with its readable address.
 #[derive(Clone, Debug)]
 pub struct Choice {
-    /// Path of sites from the root.
+    /// The readable address: the path of sites from the root.
     pub path: String,
-    /// Hash of that path.
+    /// The address: the hash of the path.
     pub address: u128,
-    /// Family that it was drawn from.
+    /// The name of the family of the prior.
     pub family: &'static str,
-    /// Its value.
+    /// The value.
     pub value: Value,
-    /// Its log density, nats.
+    /// The log density under the prior, nats.
     pub log_density: f64,
 }
 
-/// A run with names.
+/// A replayed run with readable names.
 #[derive(Default)]
 pub struct Trace {
     /// The run.
     pub run: Run,
-    /// The sums behind its scores, exact: of its choices, and of factors, observations and sketches.
+    /// The exact sums behind the scores: of the choices, and of factors, observations and sketches.
     pub sums: (Total, Total),
-    /// Every choice, in depth-first order; those that are held, too, which belong to the score.
+    /// All choices, in depth-first order, including held choices, which count in the score.
     pub choices: Vec<Choice>,
     /// The primitives of the scene.
     pub parts: Vec<Part>,
@@ -49,42 +49,42 @@ pub struct Trace {
     pub queries: Vec<(Value, Value)>,
 }
 
-/// A primitive of the scene, with names.
+/// A primitive of the scene with readable names.
 pub struct Part {
-    /// Its readable address.
+    /// The readable address.
     pub path: String,
-    /// Its shapes.
+    /// The shapes of the primitive.
     pub shapes: Vec<Shape>,
-    /// Where it is emitted.
+    /// The place in the source where it is emitted.
     pub place: Call,
 }
 
 /// The source of the values of a replay.
 pub enum Source<'a> {
-    /// By the hash of an address.
+    /// Values by address.
     Addresses(HashMap<u128, Value>),
-    /// By the readable address.
+    /// Values by readable address.
     Paths(&'a HashMap<String, Value>),
 }
 
-/// What to do at a choice that the source lacks.
+/// The treatment of choices that the source lacks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Missing {
-    /// It is a fault.
+    /// Fail with a fault.
     Refuse,
-    /// It is drawn from its prior, from this seed and stream.
+    /// Draw the choice from its prior, by this seed and stream.
     Draw {
         /// The seed.
         seed: u64,
         /// The stream.
         stream: u64,
     },
-    /// The future stops there: the log is of a run that was stopped. What made that run impossible stops the replay,
-    /// too, as a run without choices has nothing else to stop at.
+    /// Stop the future at the choice: the log is of a stopped run. A cause that made the run impossible stops the replay as well,
+    /// because a run without choices has no other place to stop.
     Stop,
 }
 
-/// Gives choices the values of a source.
+/// Chooser that takes values from a source.
 struct Sourced<'a> {
     source: Source<'a>,
     missing: Missing,
@@ -113,7 +113,7 @@ impl Chooser for Sourced<'_> {
     }
 }
 
-/// What a choice and a part take beside their addresses, as objects of Python, which a person reads them by: bytes.
+/// Bytes of a choice and of a part as Python objects, without their addresses.
 const CHOICE: usize = 512;
 const PART: usize = 1024;
 
@@ -123,12 +123,12 @@ struct Replay<'a> {
     trace: Trace,
     record: Record,
     written: HashMap<u64, Vec<(Value, u32)>>,
-    /// Bytes of the names and parts so far, which the run itself does not have.
+    /// Bytes of the names and parts so far; the budget of the run itself does not count them.
     named: usize,
 }
 
 impl Replay<'_> {
-    /// The readable address of a choice or a part that takes so many bytes.
+    /// The readable address of a choice or a part. `bytes` is the size of the choice or part without the address.
     fn path(&mut self, at: &At<'_, f64>, bytes: usize) -> Result<String, Fault> {
         let (path, budget) = (at.path(), self.task.limits.bytes);
         self.named = self.named.saturating_add(path.len() + bytes);
@@ -143,8 +143,8 @@ impl Replay<'_> {
             .with_help("check that every loop and recursion ends, or raise `max_memory`"))
     }
 
-    /// Goes on, or stops where the run that is followed did.
-    fn on<A>(&self, answer: A) -> Answer<A> {
+    /// Continue with an answer, or pause where the original run stopped.
+    fn resume<A>(&self, answer: A) -> Answer<A> {
         match self.chooser.missing {
             Missing::Stop if self.record.cause.is_some() => Answer::Pause,
             _ => Answer::Go(answer),
@@ -173,7 +173,7 @@ impl Answers<f64> for Replay<'_> {
 
     fn score(&mut self, at: &At<'_, f64>, factor: Factor, log: f64) -> Result<Answer<()>, Fault> {
         self.record.factor(check_factor(log)?, || factor_name(at, factor));
-        Ok(self.on(()))
+        Ok(self.resume(()))
     }
 
     fn held(&mut self, at: &At<'_, f64>, dist: &Dist, value: &Value, log: f64) -> Result<Answer<()>, Fault> {
@@ -197,7 +197,7 @@ impl Answers<f64> for Replay<'_> {
         let path = self.path(at, PART + size_of_val(shapes))?;
         self.trace.parts.push(Part { path, shapes: shapes.to_vec(), place });
         self.record.emit(shapes);
-        Ok(self.on(()))
+        Ok(self.resume(()))
     }
 
     fn query(&mut self, at: &At<'_, f64>, key: &Value, value: &Value) -> Result<(), Fault> {
@@ -223,27 +223,27 @@ impl Answers<f64> for Replay<'_> {
     }
 }
 
-/// The values of a log by address, order choices left out.
+/// The values of a log by address, without order choices.
 pub fn by_address(entries: &[Entry]) -> HashMap<u128, Value> {
     entries.iter().filter(|e| !e.is_order()).map(|e| (e.address(), e.value.clone())).collect()
 }
 
-/// The futures that ran at the order choices of a log, one after the other: the place of the next one among those that can run
-/// now; `None` where it cannot, or where the log has no more.
+/// The order choices of a log, one for each call: the place of the next future of the log among the runnable futures. `None` if
+/// that future is not runnable, or after the last order choice.
 pub fn picks(entries: &[Entry]) -> impl FnMut(&State) -> Option<usize> {
     let mut paths = entries.iter().filter(|e| e.is_order()).map(Entry::address);
     move |state| paths.next().and_then(|path| place(state, path))
 }
 
-/// The place of the future with that path among those that can run.
+/// The place of the future with this path among the runnable futures.
 pub fn place(state: &State, path: u128) -> Option<usize> {
     state.runnable().iter().position(|future| state.path_of(future) == path)
 }
 
-/// Runs the program once more with the choices of `source`.
+/// Replay a run: run the program with the choices of `source`.
 ///
 /// # Errors
-/// A choice that `source` lacks and that may not be missing, or a fault of the program.
+/// A missing choice with [`Missing::Refuse`], or a fault of the program.
 pub fn replay(task: &Task, source: Source<'_>, missing: Missing) -> Result<Trace, Failure> {
     let mut machine = task.machine();
     let mut state = task.start(&machine, missing != Missing::Stop)?;
@@ -251,14 +251,14 @@ pub fn replay(task: &Task, source: Source<'_>, missing: Missing) -> Result<Trace
     let (trace, record) = (Trace::default(), Record::start(&task.sketches));
     let chooser = Sourced { source, missing };
     let mut answers = Replay { task, chooser, trace, record, written: HashMap::new(), named: 0 };
-    let mut stuck = Vec::new();
+    let mut stopped = Vec::new();
     machine.drive(&mut state, &mut answers, |answers, state, last| {
         if missing != Missing::Stop {
             return Some(0);
         }
-        stuck.extend(last.filter(|(_, stop)| *stop == Stop::Paused).map(|(future, _)| future));
+        stopped.extend(last.filter(|(_, stop)| *stop == Stop::Paused).map(|(future, _)| future));
         let is_possible = answers.record.cause.is_none();
-        state.runnable().iter().position(|future| is_possible && !stuck.contains(&future))
+        state.runnable().iter().position(|future| is_possible && !stopped.contains(&future))
     })?;
     let Replay { mut trace, record, .. } = answers;
     let value = if state.has_ended() { state.result() } else { Value::None };

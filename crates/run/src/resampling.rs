@@ -1,5 +1,5 @@
-//! Resampling: how many copies each particle gets. All are unbiased: the expected number of copies of
-//! particle `i` is `N w_i / sum w` (Douc and Cappe 2005), where `w` are the weights to draw by: those of the particles, or
+//! Resampling: the number of copies of each particle. All methods are unbiased: the expected number of copies of
+//! particle `i` is `N w_i / sum w` (Douc and Cappe 2005), where `w` are the weights of the particles, or
 //! for [`Resampling::Tempered`] a power of them. Survivors keep their index, and their further copies replace those that got
 //! no copy.
 
@@ -13,18 +13,18 @@ pub enum Resampling {
     /// One uniform draw, `N` points at equal distances: particle `k` gets
     /// `floor(N C_k + u) - floor(N C_{k-1} + u)` copies, `C` the cumulative normalised weights.
     Systematic,
-    /// `floor(N w_i)` copies each, the rest drawn multinomially from the remainders.
+    /// `floor(N w_i)` copies each; further copies are drawn multinomially from the remainders.
     Residual,
-    /// One uniform draw in each of `N` equal intervals.
+    /// A uniform draw in each of `N` equal intervals.
     Stratified,
     /// `N` independent draws.
     Multinomial,
-    /// Systematic, by a power of the weights; the copies carry the rest of the weight (`tempered`).
+    /// Systematic, by a power of the weights; the copies keep the remaining power as their weight (`tempered`).
     Tempered,
 }
 
 impl Resampling {
-    /// All of them.
+    /// All resampling methods.
     pub const ALL: [Resampling; 5] = [
         Resampling::Systematic,
         Resampling::Residual,
@@ -33,8 +33,8 @@ impl Resampling {
         Resampling::Tempered,
     ];
 
-    /// How many copies each particle gets; they add up to the number of particles. `weights`, by which they are drawn, are
-    /// not negative and not all zero.
+    /// Draw the number of copies of each particle; the sum is the number of particles. `weights` are not negative and not all
+    /// zero.
     pub fn copies(self, weights: &[f64], random: &mut Stream) -> Vec<usize> {
         let n = weights.len();
         let total: f64 = weights.iter().sum();
@@ -144,7 +144,7 @@ pub fn further_copies(copies: &[usize]) -> Vec<(usize, usize)> {
     parents[..further].iter().copied().zip(free[..dead].iter().copied()).collect()
 }
 
-/// Two different particles.
+/// Borrow two different particles.
 pub fn pair<P>(particles: &mut [P], a: usize, b: usize) -> [&mut P; 2] {
     if a < b {
         let (left, right) = particles.split_at_mut(b);

@@ -1,4 +1,4 @@
-//! A finished run of any method: its choices as a log of addresses and values, its scores, its measures.
+//! Finished runs of any method: choices as a log of addresses and values, scores, measures.
 
 use crate::log::Log;
 use crate::record::Record;
@@ -7,51 +7,51 @@ use niwaki_vm::value::Value;
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// A finished run. Scores are in nats. Its serialised form lacks the value, which a replay gives again, and the fault.
+/// A finished run. Scores are in nats. The serialised form has no value, which a replay computes again, and no fault.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct Run {
-    /// Its choices in order, with the order choices of particles.
+    /// The choices in order, including the order choices of particles.
     pub log: Log,
-    /// What the program returned (`None` for a run that did not end).
+    /// The value of the program; `None` for a run that did not end.
     #[serde(skip)]
     pub value: Value,
-    /// Log densities of the choices.
+    /// The sum of the log densities of the choices.
     #[serde(with = "niwaki_math::bits")]
     pub log_prior: f64,
-    /// Factors, observations and sketches.
+    /// The sum of factors, observations and sketches.
     #[serde(with = "niwaki_math::bits")]
     pub log_score: f64,
-    /// The weight in its population; 0 where all weigh the same.
+    /// The log weight in its population; 0 where all weights are equal.
     #[serde(with = "niwaki_math::bits")]
     pub log_weight: f64,
-    /// Primitives of the scene.
+    /// The number of primitives of the scene.
     pub primitives: usize,
-    /// Share of cells that are equal in the scene and its target.
+    /// The share of cells that are equal in the scene and its target.
     pub similarity: Option<f64>,
-    /// Whether it ended.
+    /// Whether the run ended.
     pub has_ended: bool,
-    /// What made it impossible.
+    /// The name of the factor or sketch that made the run impossible.
     pub cause: Option<String>,
-    /// The fault, where that makes the run invalid.
+    /// The fault of an invalid run.
     #[serde(skip)]
     pub invalid: Option<Arc<RunFault>>,
-    /// Of a chain's state: the number of proposals before it.
+    /// The number of proposals before a state of a chain; 0 for other runs.
     pub visit: u64,
-    /// Whether it comes from its serialised form, so that its value is to be taken from a replay.
+    /// Whether the run was deserialised, so that a replay must compute its value.
     #[serde(skip_serializing, default = "is_read")]
     pub is_bare: bool,
 }
 
-/// A run that is read has no value.
+/// The default of `is_bare` for deserialised runs.
 fn is_read() -> bool {
     true
 }
 
-/// The best run so far of a search that goes on, for those who watch it.
+/// The best run so far of a running search, for watchers.
 pub type Shown = Mutex<Option<Arc<Run>>>;
 
 impl Run {
-    /// A copy; both share the choices.
+    /// Copy the run; both copies share the choices.
     pub fn copy(&mut self) -> Run {
         Run {
             log: self.log.fork(),
@@ -62,7 +62,7 @@ impl Run {
         }
     }
 
-    /// Shows it, if it is better than what is shown.
+    /// Publish the run to watchers, if it is better than the published run.
     pub fn show(&mut self, shown: &Shown) {
         let mut now = shown.lock().unwrap_or_else(PoisonError::into_inner);
         if now.as_ref().is_none_or(|before| before.log_score < self.log_score) {
@@ -70,7 +70,7 @@ impl Run {
         }
     }
 
-    /// The run of a record; the sketches are dropped.
+    /// Finish a record: the sketches are dropped.
     pub fn of(record: Record, value: Value, log_weight: f64, has_ended: bool) -> Run {
         Run {
             value,
@@ -91,11 +91,10 @@ impl Run {
 
 #[cfg(test)]
 mod tests {
-    //! A run is restored from its data to the bit.
     use super::*;
 
     #[test]
-    fn a_run_comes_back_from_its_data() {
+    fn a_run_is_restored_from_its_data_to_the_bit() {
         let mut log = Log::default();
         let vector = Value::tuple(vec![Value::Real(0.1), Value::Real(f64::INFINITY)]);
         let values = [Value::Bool(true), Value::Int(-3), Value::Real(-0.0), Value::Real(f64::NAN), vector];

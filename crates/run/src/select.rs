@@ -10,21 +10,21 @@ use std::collections::HashMap;
 /// The unit of selection weights.
 pub const UNIT: f64 = 65536.0;
 
-/// Which choices a kernel may change, and with what selection weights.
+/// The choices that a kernel may change, with their selection weights.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
-    /// Patterns over readable addresses: of each list, one must match.
+    /// Patterns over readable addresses: at least one pattern of each list must match.
     pub sites: Vec<Vec<String>>,
-    /// Selection weights by number of calls above the choice; the last one counts for all deeper choices.
+    /// Selection weights by number of calls above the choice; the last weight is for all deeper choices.
     pub depth: Vec<f64>,
     /// The names in addresses of the calls that count as depth; all calls where it is empty.
     pub calls: String,
-    /// Selection weights by pattern over readable addresses; the first match counts, and 1 where none matches.
+    /// Selection weights by pattern over readable addresses; the first match counts. The weight is 1 where no pattern matches.
     pub weights: Vec<(String, f64)>,
 }
 
 impl Selection {
-    /// Both selections at once.
+    /// Intersect two selections.
     pub fn and(&self, other: &Selection) -> Selection {
         let mut both = self.clone();
         both.sites.extend(other.sites.iter().cloned());
@@ -36,7 +36,7 @@ impl Selection {
         both
     }
 
-    /// Whether it has patterns alone, and no weights.
+    /// Whether the selection has patterns but no weights.
     pub fn is_by_pattern(&self) -> bool {
         *self == Selection { sites: self.sites.clone(), ..Selection::default() }
     }
@@ -75,8 +75,10 @@ impl Selection {
         self.sites.iter().all(|patterns| patterns.iter().any(|pattern| matches(pattern, path)))
     }
 
-    /// A selection that no address of the trace matches is an error, unless it names a site that the program has
-    /// and this run did not reach.
+    /// Check that each pattern matches an address of the trace, or a site that the program has and this run did not reach.
+    ///
+    /// # Errors
+    /// A pattern that matches neither.
     pub fn check(&self, trace: &Trace, program: &Program) -> Result<(), Failure> {
         for patterns in self.sites.iter().chain(std::iter::once(
             &self.weights.iter().map(|(pattern, _)| pattern.clone()).collect::<Vec<_>>(),
@@ -105,7 +107,7 @@ fn trace_has(known: &[String], pattern: &str) -> bool {
     known.iter().any(|path| matches(last(pattern), last(path)))
 }
 
-/// The fault of a pattern that matches none of the known choices, with those that are nearest.
+/// The fault of a pattern that matches no known choice; the help names the nearest choices.
 pub fn no_choice(pattern: &str, known: &[String]) -> Fault {
     let near: Vec<String> = nearest(pattern, known).iter().map(|p| format!("`{p}`")).collect();
     let near = if near.is_empty() { "the model has no choice".into() } else { near.join(", ") };
@@ -134,8 +136,11 @@ impl Selection {
             if !self.takes(&path) {
                 return 0;
             }
-            weight *=
-                self.weights.iter().find(|(pattern, _)| matches(pattern, &path)).map_or(1.0, |found| found.1);
+            weight *= self
+                .weights
+                .iter()
+                .find(|(pattern, _)| matches(pattern, &path))
+                .map_or(1.0, |weighted| weighted.1);
         }
         if let Some(deepest) = self.depth.last() {
             weight *= self

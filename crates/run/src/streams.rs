@@ -1,11 +1,11 @@
-//! The random streams of a search that belong to no run: each has its number here, once.
+//! Random streams of a search that belong to no run. Each has a unique number.
 //!
-//! Runs, lineages and chains take the numbers from 0 upwards, so these count down from the greatest. Numbers stay as they
-//! are, so that the same seeds give the same bits.
+//! Runs, lineages and chains use the numbers from 0 upwards, so reserved numbers count down from the greatest. Never change a
+//! number: the same seeds must give the same bits.
 
 use niwaki_math::{Stream, StreamKey};
 
-/// What a reserved stream is for. Two that had the same number would not compile.
+/// The purpose of a reserved stream. Equal numbers do not compile.
 #[derive(Clone, Copy, Debug)]
 #[repr(u64)]
 pub enum Reserved {
@@ -13,37 +13,37 @@ pub enum Reserved {
     Resampling = u64::MAX,
     /// The seed of a further population; the address is its number.
     Population = u64::MAX - 1,
-    /// Particle Gibbs and independent Metropolis-Hastings: the seed of a sweep, and what is drawn after it.
+    /// Particle Gibbs and independent Metropolis-Hastings: the seed of a sweep, and the draws after it.
     Sweep = u64::MAX - 2,
-    /// Particle Gibbs: the ancestor of the run that is kept; the address is the barrier.
+    /// Particle Gibbs: the ancestor of the held run; the address is the barrier.
     Ancestor = u64::MAX - 3,
     /// Particle Gibbs: the orders of held runs.
     Order = u64::MAX - 4,
-    /// Particle independent Metropolis-Hastings: whether a sweep is accepted.
+    /// Particle independent Metropolis-Hastings: the acceptance of a sweep.
     SweepAcceptance = u64::MAX - 5,
-    /// Particles that are moved: the kernels of a mixture; the address is the round.
+    /// Rejuvenation: the kernels of a mixture; the address is the round.
     MoveSchedule = u64::MAX - 6,
-    /// Particles that are moved: the first runs, from which spreads are read.
+    /// Rejuvenation: the first runs, from which spreads are estimated.
     Spread = u64::MAX - 7,
-    /// Particles that are moved: the seed of a particle's chain; the address is its lineage.
+    /// Rejuvenation: the seed of a particle's chain; the address is its lineage.
     ChainSeed = u64::MAX - 8,
     /// Final chains: the particles from which they start.
     ChainStart = u64::MAX - 9,
     /// Particles with a time limit: the seed of a pilot, which measures the cost of a run.
     Pilot = u64::MAX - 10,
-    /// Rejection sampling: whether a run is accepted; the address is the run.
+    /// Rejection sampling: the acceptance of a run; the address is the run.
     RunAcceptance = u64::MAX - 11,
-    /// Which of the weighted runs of an inference inside a model is returned.
+    /// Nested inference: the weighted run whose value is returned.
     Pick = u64::MAX - 12,
-    /// A search for the best: which kind of step is next (the address is the round), and the seed of a further population.
+    /// Optimising search: the kind of the next step (the address is the round), and the seed of a further population.
     Improve = u64::MAX - 13,
-    /// Particles that are looked at while they are paused: which (the address is the barrier), and the seed of the search that
-    /// goes on from one (the address is its number).
+    /// Paused particles: the particles that are examined (the address is the barrier), and the seed of the search that resumes
+    /// from a particle (the address is its number).
     Paused = u64::MAX - 14,
 }
 
 impl Reserved {
-    /// The bits at an address, drawn for the `visit`-th time.
+    /// The random bits of the `visit`-th draw at an address.
     pub fn stream(self, seed: u64, address: u128, visit: u64) -> Stream {
         Stream::new(seed, self as u64, address, visit)
     }

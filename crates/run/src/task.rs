@@ -23,13 +23,13 @@ pub trait Hosts: Send + Sync {
     /// The exception of the function, as a fault.
     fn call(&self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault>;
 
-    /// What a function raised that is no fault of the model, and ends the search whatever became of the run: an exit, say. It is
-    /// given once.
+    /// Take an exception that is no fault of the model and ends the search, for example an exit of the interpreter. It is
+    /// returned once.
     fn raised(&self) -> Option<Box<dyn Any + Send>> {
         None
     }
 
-    /// What the inference does that a call of this constant is, where it is one.
+    /// The kind of inference of a call of this constant; `None` where the call is no inference.
     fn inference(&self, _: u16) -> Option<Inside> {
         None
     }
@@ -49,26 +49,26 @@ impl Hosts for NoHosts {
 pub struct Task {
     /// The compiled model.
     pub program: Arc<Program>,
-    /// The function to run, where it is not the program's entry: the model of an `infer`.
+    /// The model of an `infer`; `None` to run the entry function of the program.
     pub model: Option<Arc<Closure>>,
     /// The arguments of that function.
     pub args: Vec<Value>,
     /// The sketches that score its scene; log scores add.
     pub sketches: Vec<Arc<dyn SketchSpec>>,
-    /// Choices whose values are given, and observed.
+    /// Held choices, which count as observations.
     pub held: Option<Arc<Held>>,
-    /// Its host functions.
+    /// The host functions.
     pub hosts: Arc<dyn Hosts>,
     /// The limits of one run.
     pub limits: Limits,
-    /// The steps that all of its runs may take together: of a search inside of a model.
+    /// The step budget of all runs together, for a search inside a model.
     pub together: Option<Arc<SharedSteps>>,
-    /// Counts the runs of its searches that are invalid; clones count together.
+    /// The counter of invalid runs; clones of the task share it.
     pub invalid: Arc<Invalid>,
 }
 
 impl Task {
-    /// A task without arguments, sketches and host functions.
+    /// Create a task without arguments, sketches and host functions.
     pub fn new(program: Arc<Program>) -> Self {
         Task {
             program,
@@ -83,25 +83,25 @@ impl Task {
         }
     }
 
-    /// The same task, with no run counted yet.
+    /// Copy the task with a new counter of invalid runs.
     pub fn uncounted(&self) -> Task {
         Task { invalid: Arc::default(), ..self.clone() }
     }
 
-    /// The same task for each of so many searches at once, which share its memory.
+    /// Copy the task for each of `count` concurrent searches, which share its memory budget.
     pub fn shared_by(&self, count: usize) -> Task {
         let bytes = self.limits.bytes / count.max(1);
         Task { limits: Limits { bytes, ..self.limits }, ..self.clone() }
     }
 
-    /// A machine for its program.
+    /// Create a machine for the program.
     pub fn machine(&self) -> Machine<'_> {
         Machine::new(&self.program, self.limits)
             .holding(self.held.as_deref())
             .within(self.together.as_deref())
     }
 
-    /// A run that has not begun.
+    /// Create the state of a run before its start.
     ///
     /// # Errors
     /// The wrong number of arguments.
@@ -112,7 +112,7 @@ impl Task {
         }
     }
 
-    /// A run from the start that keeps its activations.
+    /// Run the program from the start, keeping its activations.
     ///
     /// # Errors
     /// The wrong number of arguments, or a fault of the program.

@@ -1,5 +1,5 @@
-//! Log weights: normalising, means, effective sample size, draws, the step from one score to the next. Sums run in the order of the particles, so that they are
-//! the same for any number of threads.
+//! Log weights: normalisation, means, effective sample size, draws, steps between scores. Sums run in the order of the
+//! particles, so that they are the same for any number of threads.
 
 use niwaki_math::Total;
 use niwaki_math::log_sums::log_sum_exp;
@@ -16,7 +16,7 @@ pub struct Normalised {
 }
 
 impl Normalised {
-    /// Fills in from log weights; false when every weight is zero.
+    /// Normalise log weights; return false when every weight is zero.
     pub fn read(&mut self, logs: impl Iterator<Item = f64> + Clone) -> bool {
         let max = logs.clone().fold(f64::NEG_INFINITY, f64::max);
         if max == f64::NEG_INFINITY {
@@ -35,21 +35,21 @@ impl Normalised {
         true
     }
 
-    /// The particle index into whose share of the total `u`, between 0 and 1, falls.
+    /// Draw a particle index by inversion. `u` is uniform between 0 and 1.
     pub fn index(&self, u: f64) -> usize {
         index(&self.relative, u)
     }
 }
 
-/// `exp` of many numbers, of which many may be equal: scores of choices from a few are sums of a few.
+/// A cache of `exp`: many arguments are equal, because scores are often sums of few different terms.
 struct Exps {
-    /// Numbers with their `exp`, each at the place that its bits name.
-    known: [(f64, f64); Exps::SIZE],
+    /// Arguments with their `exp`, by a hash of the argument.
+    entries: [(f64, f64); Exps::SIZE],
 }
 
 impl Default for Exps {
     fn default() -> Exps {
-        Exps { known: [(0.0, 1.0); Exps::SIZE] }
+        Exps { entries: [(0.0, 1.0); Exps::SIZE] }
     }
 }
 
@@ -59,15 +59,15 @@ impl Exps {
     #[inline(always)]
     fn of(&mut self, x: f64) -> f64 {
         let place = x.to_bits().wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (u64::BITS - Exps::SIZE.ilog2());
-        let known = &mut self.known[place as usize % Exps::SIZE];
-        if known.0 != x {
-            *known = (x, x.exp());
+        let entry = &mut self.entries[place as usize % Exps::SIZE];
+        if entry.0 != x {
+            *entry = (x, x.exp());
         }
-        known.1
+        entry.1
     }
 }
 
-/// The index into whose share of all weights `u`, between 0 and 1, falls.
+/// Draw an index by inversion, with probability proportional to its weight. `u` is uniform between 0 and 1.
 pub fn index(weights: &[f64], u: f64) -> usize {
     let mut left = u * weights.iter().sum::<f64>();
     let last = weights.iter().rposition(|w| *w > 0.0).unwrap_or(0);
@@ -85,15 +85,15 @@ pub fn near_log_step(next: f64, score: f64, power: f64, weighed: f64) -> f64 {
     if next == power { next * (score - weighed) } else { next * score - power * weighed }
 }
 
-/// The log weight, nats, of a step from the score weighed before at a power to a score at the next power. At zero it does not look at the score, unless the run is
-/// impossible.
+/// The log weight, nats, of a step from the score `weighed` at `power` to `score` at the power `next`. At power zero the score
+/// counts only where the run is impossible.
 #[inline(always)]
 pub fn log_step(next: f64, score: &Total, power: f64, weighed: &Total) -> f64 {
     let log = near_log_step(next, score.near(), power, weighed.near());
     if log.is_nan() { wide_log_step(next, score, power, weighed) } else { log }
 }
 
-/// The same, where a score is impossible or too large to be exact as an `f64`.
+/// [`log_step`] where a score is impossible or too large to be exact as an `f64`.
 #[cold]
 #[inline(never)]
 fn wide_log_step(next: f64, score: &Total, power: f64, weighed: &Total) -> f64 {
@@ -128,7 +128,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exps_are_those_of_the_numbers_to_the_bit() {
+    fn cached_exps_equal_exp_to_the_bit() {
         let mut exps = Exps::default();
         let few = [0.0, -0.0, f64::NEG_INFINITY, -700.0, -1.5];
         let many = (0..2000).map(|k| f64::from(k % 400) * -0.37);

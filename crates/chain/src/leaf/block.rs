@@ -1,12 +1,12 @@
-//! Blocks: many choices move a little at once, each with a probability of taking part.
+//! Blocks: joint small moves of many choices. Each choice takes part with a given probability.
 //!
 //! The support of a choice can depend on another choice of the block, so steps must not depend on parameters: a choice moves
 //! in the coordinates of its *family* (positive ones by a factor, bounded ones in plain steps, which
-//! are rejected outside), by its spread in the chain's first state. The step of a choice that is gone after the
-//! proposal, or has another family, does not count in either direction.
+//! are rejected outside), by its spread in the chain's first state. The step of a choice that does not exist after the
+//! proposal, or has another family then, counts in neither direction.
 //!
-//! A discrete choice that takes part moves to a neighbour or stays, each with probability 1/2. If all of them always moved, what
-//! two of them have in common could never change: two truth values that are equal would stay equal.
+//! A discrete choice that takes part moves to a neighbour or stays, each with probability 1/2. If all of them always moved, two
+//! equal truth values would always stay equal.
 
 use crate::leaf::drift::{Step, normal};
 use crate::leaf::neighbour::near;
@@ -25,11 +25,11 @@ use serde::Deserialize;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Block {
-    /// The step, in spreads of each choice's first distribution.
+    /// The first step size, in spreads of each choice's first distribution.
     pub(crate) step: Step,
     /// Probability with which each choice takes part.
     pub(crate) share: f64,
-    /// Acceptance that the step is adapted to while the chain warms up.
+    /// The target acceptance of the adaptation during warm-up.
     target: f64,
 }
 
@@ -41,7 +41,7 @@ impl Block {
         ("target", BETWEEN),
     ];
 
-    /// The step so far, in spreads of each choice's first distribution.
+    /// The adapted step size, in spreads of each choice's first distribution.
     pub fn size(&self) -> f64 {
         self.step.size
     }
@@ -52,7 +52,7 @@ impl Block {
     }
 }
 
-/// A step of one choice; `None` where it has none.
+/// Move a choice; `None` if the choice does not take part or cannot move.
 pub fn step(family: Family, old: &Value, size: f64, rng: &mut Stream) -> Option<Proposed<f64>> {
     let space = family.space();
     let discrete = match old {
@@ -77,7 +77,7 @@ pub fn step(family: Family, old: &Value, size: f64, rng: &mut Stream) -> Option<
 }
 
 impl Walk {
-    /// One proposal for a whole block.
+    /// Make a proposal for a whole block.
     pub(crate) fn block(
         &mut self,
         task: &Task,

@@ -1,6 +1,6 @@
 //! The original's single-site proposals (Ritchie's prototype, the Metropolis-Hastings baseline of dissertation 5.6), by
-//! the family of the choice: a coin is always flipped, a Gaussian number drifts by its own distribution's standard
-//! deviation, anything else is drawn from its distribution. Flips and drifts are symmetric.
+//! the family of the choice: a truth value always flips, a Gaussian number drifts by the standard deviation of its
+//! prior, any other value is drawn from its prior. Flips and drifts are symmetric.
 
 use crate::leaf::drift::normal;
 use crate::walk::proposal::{FromPrior, Move};
@@ -10,7 +10,7 @@ use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::kept::Proposed;
 use niwaki_vm::value::Value;
 
-/// The move.
+/// The move by family.
 pub(crate) struct ByFamily;
 
 impl Move for ByFamily {

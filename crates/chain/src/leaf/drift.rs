@@ -1,7 +1,7 @@
-//! Drift: a continuous choice moves a little, in coordinates in which it has no bounds.
+//! Drift: small moves of a continuous choice, in coordinates without bounds.
 //!
 //! The step in the coordinate z is Gaussian ([`Dist::moved`]), so the density of a move from x to x' is symmetric except
-//! for a Jacobian: log q(x' | x) = log dz/dx at x' + a symmetric term. Leaving it out draws from the wrong distribution.
+//! for a Jacobian: log q(x' | x) = log dz/dx at x' + a symmetric term. Without the Jacobian the chain targets the wrong distribution.
 
 use crate::walk::accept::Decision;
 use crate::walk::proposal::{FromPrior, Move};
@@ -14,15 +14,15 @@ use niwaki_vm::machine::kept::Proposed;
 use niwaki_vm::value::Value;
 use serde::Deserialize;
 
-/// Drift with a step for each site, adapted while the chain warms up and frozen afterwards.
+/// Drift with a step size for each site, adapted during warm-up and frozen afterwards.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Drift {
-    /// First step, in spreads of the choice's distribution.
+    /// The first step size, in spreads of the prior.
     step: Step,
-    /// Acceptance that the steps are adapted to.
+    /// The target acceptance of the adaptation.
     target: f64,
-    /// The steps, by number of the site, up to the last site that has drifted.
+    /// Step sizes by number of the site, up to the last site that has drifted.
     #[serde(skip)]
     steps: Vec<Step>,
     /// Whether the last proposal was a drift.
@@ -34,17 +34,17 @@ impl Drift {
     /// Ranges of its settings.
     pub(crate) const RANGES: Ranges = &[("step", POSITIVE), ("target", BETWEEN)];
 
-    /// What it has learnt: its steps, by number of the site.
+    /// The adaptation: step sizes by number of the site.
     pub(crate) fn learnt(&self) -> Vec<Learnt> {
         self.steps.iter().map(Step::learnt).collect()
     }
 
-    /// Takes what it had learnt.
+    /// Restore an adaptation.
     pub(crate) fn know(&mut self, steps: &[Learnt]) {
         self.steps = steps.iter().map(|step| Step::known(*step)).collect();
     }
 
-    /// The step at a site.
+    /// The step size at a site.
     fn step(&mut self, site: usize) -> f64 {
         if site >= self.steps.len() {
             self.steps.resize(site + 1, self.step);
@@ -53,14 +53,14 @@ impl Drift {
     }
 }
 
-/// A step that adapts.
+/// An adaptive step size.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(from = "f64")]
 pub(crate) struct Step {
-    /// The step itself.
+    /// The step size.
     pub size: f64,
     log: f64,
-    /// How often it was adapted.
+    /// The number of adaptations.
     adapted: u32,
 }
 
@@ -71,16 +71,16 @@ impl From<f64> for Step {
     }
 }
 
-/// What a step has learnt: its logarithm, as bits, and how often it was adapted.
+/// The adaptation of a step size: the bits of its logarithm, and the number of adaptations.
 pub(crate) type Learnt = (u64, u32);
 
 impl Step {
-    /// What it has learnt.
+    /// The adaptation.
     pub fn learnt(&self) -> Learnt {
         (self.log.to_bits(), self.adapted)
     }
 
-    /// A step that had learnt this.
+    /// Restore an adaptation.
     pub fn known((log, adapted): Learnt) -> Step {
         let log = f64::from_bits(log);
         Step { size: log.exp(), log, adapted }
@@ -123,7 +123,7 @@ impl Move for Drift {
     }
 }
 
-/// A standard Gaussian number.
+/// Draw a standard Gaussian number.
 pub(crate) fn normal(rng: &mut Stream) -> f64 {
     match (Dist::Gaussian { mean: 0.0, sd: 1.0 }).sample(rng) {
         Draw::Real(x) => x,

@@ -1,24 +1,24 @@
-//! A guide as the proposal of a chain: one choice, from what the guide sees around it.
+//! Guides as proposals of chains: a guide draws a single choice from its view of the run.
 //!
-//! A run that begins sees only what was made before. A chain's run is complete, so what a guide sees of it has to be
-//! said. For a choice `c` of an activation `A`:
+//! A new run contains only earlier choices and parts. The run of a chain is complete, so the view of a guide needs a
+//! definition. For a choice `c` of an activation `A` a guide sees:
 //!
-//! - of the program, what is in scope at `c`, the parameters of its prior, and the last part on the call path of `c`;
-//! - of the scene, all but the parts at and below `A`, and what `A` itself emitted before `c`. Iterations of a loop after
-//!   that of `A` are below it, as in the recursion that the loop could be.
+//! - the variables in scope at `c`, the parameters of its prior, and the last part on the call path of `c`;
+//! - the scene without the parts at and below `A`, but with the parts that `A` itself emitted before `c`. Later iterations of a
+//!   loop count as below an earlier iteration, as in a recursion.
 //!
-//! With `S` for that scene, the densities of going there and back are
+//! With `S` for that scene, the densities of the move and of its reverse are
 //!
 //! ```text
 //! forward = q(x' | scope, S(run))        backward = q(x | scope, S(proposed run))
 //! ```
 //!
-//! Nothing in scope was made after `c`, so a change of `c` leaves it and the prior as they are. The two scenes differ only
-//! by parts outside of `A` that moved with what `A` returned. Mostly there are none: then the network's outputs serve both
-//! directions, and the parts of `A` are taken out once. New choices come from their priors, and so do choices that the
-//! guide does not draw.
+//! Variables in scope are older than `c`, so a change of `c` does not change them or the prior. The two scenes differ only by parts
+//! outside of `A` that depend on the result of `A`. Usually there are no such parts: then the outputs of the network serve both
+//! directions, and the parts of `A` are removed once. New choices, and choices that the guide does not draw, come from their
+//! priors.
 //!
-//! A scene that a sketch forbids shows nothing: which sketches have seen all of it depends on how it came about.
+//! A forbidden scene is invisible to guides, because its sketches depend on the order in which it was built.
 
 use crate::walk::proposal::{FromPrior, Move};
 use crate::walk::state::State;
@@ -42,16 +42,16 @@ pub struct Guided {
     /// The guide.
     pub guide: Arc<BoundGuide>,
     sight: Sight,
-    /// What it sees of the scene, where it looks.
+    /// The visible scene, if the guide uses the scene.
     scene: Option<Scene>,
     /// The last part on the choice's call path.
     part: Option<Aabb>,
-    /// The site in the guide, the prior and the value before, where the guide drew.
+    /// The site in the guide, the prior and the previous value, if the guide drew.
     drew: Option<(usize, Dist, Draw)>,
 }
 
 impl Guided {
-    /// A guide that has not proposed.
+    /// Create a proposal from a guide.
     pub fn new(guide: Arc<BoundGuide>) -> Guided {
         Guided { guide, sight: Sight::default(), scene: None, part: None, drew: None }
     }
@@ -63,16 +63,16 @@ impl Clone for Guided {
     }
 }
 
-/// The scene without what a choice leads to.
+/// The scene without the parts that a choice leads to.
 struct Scene {
     sketches: Sketches,
-    /// Numbers of the primitives that are left out, ascending.
-    left_out: Vec<u32>,
+    /// The numbers of the omitted primitives, ascending.
+    omitted: Vec<u32>,
 }
 
 impl std::fmt::Debug for Scene {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "Scene without {:?}", self.left_out)
+        write!(f, "Scene without {:?}", self.omitted)
     }
 }
 
@@ -82,34 +82,35 @@ fn numbered<'a>(trace: &'a Trace, numbers: &'a [u32]) -> impl Iterator<Item = &'
 }
 
 impl Scene {
-    /// Of a run, for one of its choices.
+    /// The visible scene of a run for a choice.
     fn of(state: &State, program: &Program, choice: usize) -> Scene {
         let mut scene =
-            Scene { sketches: state.sketches.fork(), left_out: state.trace.emits_below(program, choice) };
-        if !scene.left_out.is_empty() {
-            let kept = scene.sketches.exchange(numbered(&state.trace, &scene.left_out), std::iter::empty());
+            Scene { sketches: state.sketches.fork(), omitted: state.trace.emits_below(program, choice) };
+        if !scene.omitted.is_empty() {
+            let kept = scene.sketches.exchange(numbered(&state.trace, &scene.omitted), std::iter::empty());
             debug_assert!(kept, "the sketches and the trace hold the same scene");
         }
         scene
     }
 
-    /// Follows the open transaction; whether that changes it.
+    /// Apply the open transaction; return whether the scene changes.
     fn follow(&mut self, trace: &Trace, program: &Program, choice: usize) -> bool {
         let outside = |numbers: &[u32], inside: &[u32]| -> Vec<u32> {
             numbers.iter().copied().filter(|number| inside.binary_search(number).is_err()).collect()
         };
-        let (gone, come) = trace.exchanged();
-        let gone = outside(gone, &self.left_out);
-        let come = if come.is_empty() { vec![] } else { outside(come, &trace.emits_below(program, choice)) };
-        if gone.is_empty() && come.is_empty() {
+        let (removed, added) = trace.exchanged();
+        let removed = outside(removed, &self.omitted);
+        let added =
+            if added.is_empty() { vec![] } else { outside(added, &trace.emits_below(program, choice)) };
+        if removed.is_empty() && added.is_empty() {
             return false;
         }
-        let kept = self.sketches.exchange(numbered(trace, &gone), numbered(trace, &come));
+        let kept = self.sketches.exchange(numbered(trace, &removed), numbered(trace, &added));
         debug_assert!(kept, "the sketches and the trace hold the same scene");
         true
     }
 
-    /// The sketches, of a scene that is allowed.
+    /// The sketches; `None` for a forbidden scene.
     fn seen(&self) -> Option<&Sketches> {
         Some(&self.sketches).filter(|sketches| sketches.forbidden_by().is_none())
     }

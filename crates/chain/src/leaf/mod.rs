@@ -1,10 +1,5 @@
-//! Proposals: the leaves of a kernel. Each is a file with its settings, which are read as data, and what it adapts;
-//! [`Proposer`] lists them. A leaf is applied to the kept run of a chain or to the partial run of a particle.
-//!
-//! * a new value for one choice: from the prior, [`drift`], [`neighbour`], `by_family`, by the [`user`]'s function,
-//!   by a guide ([`guided`]);
-//! * [`block`], `regenerate`, [`regrow`]: proposals that change many choices;
-//! * [`trajectory`]: the continuous choices move together along their gradient.
+//! Proposals: the leaves of a kernel. Each has a file with its settings, which are read as data, and its adaptation. [`Proposer`]
+//! lists them. A leaf applies to the kept run of a chain or to the partial run of a particle.
 
 pub mod block;
 mod by_family;
@@ -34,34 +29,34 @@ use niwaki_run::{Failure, Task};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// How a leaf proposes. As data it is a name, which is the variant's in small letters, with the settings.
+/// The proposal of a leaf. As data it is the name of the variant in small letters, with its settings.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Proposer {
-    /// One choice, from its own distribution.
+    /// A single choice, from its prior.
     Prior {},
-    /// One continuous choice moves a little; others are drawn from their own distribution.
+    /// A small move of a continuous choice; a discrete choice is drawn from its prior.
     Drift(Box<Drift>),
-    /// One discrete choice moves to a value near by; others are drawn from their own distribution.
+    /// A move of a discrete choice to a near value; a continuous choice is drawn from its prior.
     Neighbour(Neighbour),
-    /// One choice, by the move that the original's baseline has for its family.
+    /// A single choice, by the move of the dissertation's baseline for its family.
     ByFamily {},
-    /// Many choices move a little at once.
+    /// A joint small move of many choices.
     Block(Box<Block>),
-    /// A call and all below it are drawn anew.
+    /// A redraw of a call and all choices below it.
     Regenerate(Regenerate),
-    /// A part of the run is grown again by conditional SMC.
+    /// A regrowth of a part of the run by conditional SMC.
     Regrow(Box<Regrow>),
-    /// The continuous choices move together along their gradient, for a fixed number of steps.
+    /// A joint move of the continuous choices along their gradient, for a fixed number of steps.
     #[serde(deserialize_with = "trajectory::hmc_step")]
     HmcStep(Box<Trajectory>),
-    /// The same until they turn back.
+    /// Like `Hmc`, until the trajectory turns back.
     #[serde(deserialize_with = "trajectory::nuts_step")]
     NutsStep(Box<Trajectory>),
-    /// One choice, from a distribution that a model function computes from its value.
+    /// A single choice, from a distribution that a model function computes from the value.
     #[serde(skip)]
     Proposal(Arc<User>),
-    /// One choice, from what a guide sees around it.
+    /// A single choice, from a guide.
     #[serde(skip)]
     Guided(Box<Guided>),
 }
@@ -81,7 +76,7 @@ impl Proposer {
         }
     }
 
-    /// Makes one proposal.
+    /// Make a proposal.
     ///
     /// # Errors
     /// A fault of the program, or of the proposal.
@@ -101,7 +96,7 @@ impl Proposer {
         }
     }
 
-    /// What it has learnt from the proposals so far.
+    /// The adaptation so far, as data.
     pub(crate) fn learnt(&self) -> Learnt {
         match self {
             Proposer::Drift(own) => Learnt::Steps(own.learnt()),
@@ -111,7 +106,7 @@ impl Proposer {
         }
     }
 
-    /// Takes what it had learnt; false where that is not of such a leaf.
+    /// Restore an adaptation; return false if it belongs to another kind of leaf.
     pub(crate) fn know(&mut self, learnt: Learnt) -> bool {
         match (self, learnt) {
             (Proposer::Drift(own), Learnt::Steps(steps)) => own.know(&steps),
@@ -125,7 +120,7 @@ impl Proposer {
         true
     }
 
-    /// Whether it looks at the scene.
+    /// Whether the leaf uses the scene.
     pub(crate) fn looks(&self) -> bool {
         match self {
             Proposer::Guided(own) => own.guide.looks(),
@@ -134,7 +129,7 @@ impl Proposer {
         }
     }
 
-    /// The trajectories of a leaf that follows the gradient.
+    /// The trajectories of a gradient leaf.
     pub fn trajectory(&self) -> Option<&Trajectory> {
         match self {
             Proposer::HmcStep(own) | Proposer::NutsStep(own) => Some(own),
@@ -143,47 +138,47 @@ impl Proposer {
     }
 }
 
-/// What a leaf has learnt from its proposals, as data.
+/// The adaptation of a leaf, as data.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) enum Learnt {
-    /// Leaves that do not learn.
+    /// No adaptation.
     Nothing,
-    /// Steps.
+    /// Step sizes.
     Steps(Vec<crate::leaf::drift::Learnt>),
-    /// Of trajectories.
+    /// The scales of trajectories.
     Travels(Box<trajectory::Learnt>),
 }
 
 /// The run to which proposals are applied.
 pub trait Target {
-    /// One choice moves.
+    /// A move of a single choice.
     fn single<M: Move>(&mut self, proposer: &mut M) -> Result<(), Failure>;
 
     /// Many choices move a little at once.
     fn block(&mut self, block: &mut Block) -> Result<(), Failure>;
 
-    /// A move of a chain. It leaves a partial run unchanged.
+    /// A move of a chain, which leaves a partial run unchanged.
     fn kept(&mut self, _: &mut impl ChainMove) -> Result<(), Failure> {
         Ok(())
     }
 }
 
-/// A leaf: how it proposes, and for which choices.
+/// A leaf: a proposal and a selection of choices.
 #[derive(Clone, Debug)]
 pub struct Leaf {
-    /// How it proposes.
+    /// The proposal.
     pub proposer: Proposer,
-    /// The choices that it may change.
+    /// The selection of choices.
     pub selection: Selection,
-    /// The table with its weights; none where all choices weigh the same.
+    /// The number of the table of weights; `None` for equal weights.
     pub table: Option<usize>,
 }
 
 impl Leaf {
-    /// Prepares the leaf for a task, once.
+    /// Prepare the leaf for a task, once.
     ///
     /// # Errors
-    /// Sketches, which have no gradient that a trajectory could follow; settings that make no sense.
+    /// Sketches, which have no gradient for a trajectory; invalid settings.
     pub fn prepare(&mut self, task: &Task) -> Result<(), Failure> {
         match &mut self.proposer {
             Proposer::HmcStep(own) | Proposer::NutsStep(own) => own.prepare(task),

@@ -1,7 +1,7 @@
-//! Neighbour moves: a truth value flips, a whole number moves up or down by a few, a category becomes another; of a list of
-//! truth values one flips, and of counts some go from one to another.
+//! Neighbour moves: a truth value flips, a whole number changes by a few, a category changes. In a list of truth values a single
+//! value flips; in a list of counts some units move between two entries.
 //!
-//! The moves are symmetric, so nothing enters the acceptance ratio; numbers that leave the support are rejected.
+//! The moves are symmetric, so they do not enter the acceptance ratio. Values outside of the support are rejected.
 
 use crate::walk::proposal::{FromPrior, Move};
 use niwaki_math::{Dist, Space, Stream, Support};
@@ -13,11 +13,11 @@ use niwaki_vm::value::Value;
 use serde::Deserialize;
 use std::num::NonZeroU64;
 
-/// A move to a value near by.
+/// A move to a near value.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Neighbour {
-    /// How far at most.
+    /// The largest distance.
     reach: NonZeroU64,
 }
 
@@ -58,7 +58,7 @@ impl Move for Neighbour {
     }
 }
 
-/// The same truth values, one of them flipped.
+/// Flip one of the truth values.
 fn flipped(all: &[Value], rng: &mut Stream) -> Option<Value> {
     let at = crate::walk::streams::below(rng, all.len() as u64) as usize;
     let one = |(i, x): (usize, &Value)| match x {
@@ -68,7 +68,7 @@ fn flipped(all: &[Value], rng: &mut Stream) -> Option<Value> {
     all.iter().enumerate().map(one).collect::<Option<_>>().map(Value::tuple)
 }
 
-/// The same counts, at most `reach` of one gone to another.
+/// Move up to `reach` units between two counts.
 fn shifted(all: &[Value], reach: u64, rng: &mut Stream) -> Option<Value> {
     let n = all.len() as u64;
     if n < 2 {
@@ -87,7 +87,7 @@ fn shifted(all: &[Value], reach: u64, rng: &mut Stream) -> Option<Value> {
     (0..).zip(all).map(one).collect::<Option<_>>().map(Value::tuple)
 }
 
-/// A whole number at most `reach` from another, and not the same.
+/// Draw a different whole number within `reach`.
 pub(crate) fn near(k: i64, reach: u64, rng: &mut Stream) -> i64 {
     let at = crate::walk::streams::below(rng, 2 * reach);
     let by = (at / 2 + 1) as i64;

@@ -1,8 +1,8 @@
-//! Regeneration: a call and everything below it are drawn anew from the prior, in program order.
+//! Regeneration: a call and all choices below it are redrawn from the prior, in program order.
 //!
-//! A choice is picked, and with it the activation a fixed number of levels above it. The activation keeps its place
-//! for any draws below, so the probability of choosing it is the weight of the choices that lead to it over the weight
-//! of all, before and after.
+//! Picking a choice selects the activation a fixed number of levels above it. The activation keeps its place for any draws below.
+//! So its probability is the sum of the weights of the choices that lead to it, divided by the sum of all weights, before and after
+//! the proposal.
 
 use crate::walk::Walk;
 use crate::walk::streams::below;
@@ -14,11 +14,11 @@ use niwaki_vm::code::Program;
 use niwaki_vm::machine::state::NodeId;
 use serde::Deserialize;
 
-/// One regenerated call.
+/// The regeneration of a call.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Regenerate {
-    /// How many levels the call is above the picked choice.
+    /// The number of levels between the call and the picked choice.
     levels: usize,
 }
 

@@ -1,4 +1,4 @@
-//! The move that draws from a user's proposal. With `f(x, s)` its distribution for the value `x` before and the variables `s`,
+//! User moves: draws from a user's proposal. With `f(x, s)` for its distribution at the previous value `x` and variables `s`,
 //!
 //! ```text
 //! forward = log f(x, s)(x')        backward = log f(x', s)(x)
@@ -12,7 +12,7 @@ use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::kept::Proposed;
 use niwaki_vm::value::Value;
 
-/// The move that draws from it.
+/// A move that draws from a user's proposal.
 pub(crate) struct UserMove<'a>(pub &'a User);
 
 impl Move for UserMove<'_> {

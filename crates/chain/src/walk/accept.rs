@@ -2,12 +2,12 @@
 //!
 //! ```text
 //! log a =   log prior' - log prior + beta (log score' - log score)
-//!         + stale - fresh          log densities of removed choices, less new ones; those drawn anew are in both
+//!         + stale - fresh          log densities of removed choices, less those of new choices; redrawn choices are in both
 //!         + backward - forward     log densities of proposing the changed values, back and there
 //!         + selection              log probability that this move is chosen, back less there
 //! ```
 //!
-//! Differences are exact before they are rounded, so that a ratio is right however large the terms are that cancel in it.
+//! Differences are computed exactly and then rounded, so that a ratio is correct however large its cancelling terms are.
 //! Dissertation 3.2, with selection weights in place of the numbers of choices.
 
 use niwaki_math::streams::open_unit;
@@ -22,20 +22,20 @@ pub struct Terms<'a> {
     pub score: &'a Total,
     /// The power of the score.
     pub beta: f64,
-    /// Log densities of the choices that were removed or drawn anew, before.
+    /// Log densities of removed and redrawn choices, before the proposal.
     pub stale: &'a Total,
-    /// Log densities of the choices that are new or drawn anew, after.
+    /// Log densities of new and redrawn choices, after the proposal.
     pub fresh: &'a Total,
     /// Log density of proposing the old values from the new ones.
     pub backward: f64,
     /// Log density of proposing the new values from the old ones.
     pub forward: f64,
-    /// Log probability of choosing this move, afterwards less before.
+    /// Log probability of choosing this move after the proposal, less the log probability before.
     pub selection: f64,
 }
 
 impl Terms<'_> {
-    /// Log of the acceptance ratio; NaN where two infinities meet, which counts as impossible.
+    /// Log of the acceptance ratio; NaN counts as impossible (an infinity less an infinity).
     #[inline(always)]
     pub fn log_ratio(&self) -> f64 {
         let (prior, score) = (self.prior.near(), self.score.near());
@@ -45,7 +45,7 @@ impl Terms<'_> {
         if ratio.is_nan() { self.wide_log_ratio() } else { ratio }
     }
 
-    /// Log of the acceptance ratio, where a sum is too large to be exact as an `f64`: what may cancel is added first.
+    /// Log of the acceptance ratio where a sum is too large to be exact as an `f64`: terms that may cancel are added first.
     #[cold]
     #[inline(never)]
     fn wide_log_ratio(&self) -> f64 {
@@ -64,14 +64,14 @@ impl Terms<'_> {
     }
 }
 
-/// Log probability of picking a choice whose weight is unchanged, afterwards less before. The arguments are the sums of
-/// all weights.
+/// Log probability of picking a choice of unchanged weight after a proposal, less the log probability before. The arguments are
+/// the sums of all weights before and after.
 #[inline(always)]
 pub fn selected(total: u64, after: u64) -> f64 {
     if after == total { 0.0 } else { (total as f64 / after as f64).ln() }
 }
 
-/// Whether a proposal is accepted: with probability `min(1, exp(log_ratio))`, by the next number of `rng`.
+/// Accept a proposal with probability `min(1, exp(log_ratio))`, by the next number of `rng`.
 #[inline(always)]
 pub fn accepts(log_ratio: f64, rng: &mut impl RngCore) -> bool {
     let u = open_unit(rng);
@@ -81,16 +81,16 @@ pub fn accepts(log_ratio: f64, rng: &mut impl RngCore) -> bool {
 /// The decision on a proposal.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Decision {
-    /// Whether the proposal was the present state.
+    /// Whether the proposal was equal to the present state.
     pub same: bool,
-    /// Whether it was kept.
+    /// Whether the proposal was accepted.
     pub accepted: bool,
     /// Log of the acceptance ratio; minus infinity for an impossible proposal.
     pub log_ratio: f64,
 }
 
-/// Log of the probability with which chains that follow these powers of the score, the colder one's first, exchange
-/// their states; the hotter one's log score is larger by `gain` nats.
+/// The log probability that two chains exchange their states. `powers` are the powers of the score of the colder and of the
+/// hotter chain; the log score of the hotter chain is larger by `gain` nats.
 #[inline]
 pub fn log_exchange(powers: (f64, f64), gain: f64) -> f64 {
     (powers.0 - powers.1) * gain

@@ -1,8 +1,8 @@
 //! The best state that a chain reached.
 //!
-//! It is not copied each time, because a copy costs the length of the trace. It is stored as the present state with a list
-//! of changes to undo, and copied only when that list is as long as the trace. The reported state is that of a run with
-//! its choices.
+//! A copy of the best state costs the length of the trace. Therefore the best state is stored as the present state with a list of
+//! changes to undo, and copied only when that list is as long as the trace. The reported state is from a run with the choices of
+//! the best state.
 
 use crate::walk::state::State;
 use crate::walk::streams::Streams;
@@ -12,38 +12,38 @@ use niwaki_vm::code::Program;
 use niwaki_vm::value::Value;
 use std::collections::HashMap;
 
-/// A change of one choice, undone: its address, and its value before (`None`: there was no such choice).
+/// The reverse of a change: the address of the choice, and its previous value; `None` for a new choice.
 type Undo = (u128, Option<Value>);
 
 /// The best state so far.
 pub struct Best {
-    /// Its scores.
+    /// The scores of the best state.
     scores: Run,
-    /// Its choices, where they were copied.
+    /// The choices of the best state, if they were copied.
     copied: Option<Vec<(u128, Value)>>,
-    /// The changes that lead from the present state back to it, where they were not copied.
+    /// The changes that lead from the present state back to the best state, if it was not copied.
     since: Vec<Undo>,
 }
 
 impl Best {
-    /// The first state.
+    /// Start with the first state of a chain.
     pub fn new(state: &State) -> Best {
         Best { scores: state.scores(0), copied: None, since: vec![] }
     }
 
-    /// Whether changes are noted.
+    /// Whether changes are recorded.
     #[inline(always)]
     pub fn is_noting(&self) -> bool {
         self.copied.is_none()
     }
 
-    /// Its log score, nats.
+    /// The log score of the best state, nats.
     #[inline(always)]
     pub fn score(&self) -> f64 {
         self.scores.log_score
     }
-    /// Notes how to go back, just before an open transaction is kept; `moved` are the choices that the proposal itself
-    /// changed, with their values before.
+    /// Record how to undo an open transaction, just before the transaction is kept. `moved` are the choices that the proposal itself
+    /// changed, with their previous values.
     pub fn note(&mut self, state: &State, program: &Program, moved: impl IntoIterator<Item = (u128, Value)>) {
         let trace = &state.trace;
         let old = |(address, value): &(u128, Value)| (*address, Some(value.clone()));
@@ -56,7 +56,7 @@ impl Best {
         self.since.extend(trace.births(program).map(|place| (place.address(), None)));
     }
 
-    /// Compares the present state, just after it was reached, with the best.
+    /// Compare a new state with the best state.
     #[inline(always)]
     pub fn compare(&mut self, state: &State, program: &Program, visit: u64) {
         if state.log_score() > self.scores.log_score {
@@ -79,7 +79,7 @@ impl Best {
         self.since = vec![];
     }
 
-    /// Its choices, from those of the present state.
+    /// The choices of the best state, computed from the choices of the present state.
     fn choices(&self, state: &State, program: &Program) -> Vec<(u128, Value)> {
         let mut choices: HashMap<u128, Value> = state.choices(program).collect();
         for (address, value) in self.since.iter().rev() {
@@ -93,7 +93,7 @@ impl Best {
         choices
     }
 
-    /// Its scores and choices.
+    /// The scores and choices of the best state, for a checkpoint.
     pub(crate) fn stored(&self, state: &State, program: &Program) -> Run {
         let choices = self.copied.clone().unwrap_or_else(|| self.choices(state, program));
         Run { log: choices.into_iter().collect(), ..self.bare_scores() }
@@ -104,16 +104,16 @@ impl Best {
         Run { log_prior, log_score, primitives, similarity, has_ended, visit, ..Run::default() }
     }
 
-    /// The best state of what [`Best::stored`] gave.
+    /// Restore the best state from the result of [`Best::stored`].
     pub(crate) fn restored(run: Run) -> Best {
         let copied = run.log.entries().into_iter().map(|entry| (entry.address(), entry.value)).collect();
         Best { scores: run, copied: Some(copied), since: vec![] }
     }
 
-    /// A run from the start with its choices, so that its scores are those of its values.
+    /// Run the program with the choices of the best state, so that the scores match the values.
     ///
     /// # Errors
-    /// A fault of that run, or that it is impossible: a host function that does not answer as before.
+    /// A fault of the run; an impossible run, which happens if a host function does not repeat its answers.
     pub fn get(&self, state: &State, task: &Task) -> Result<Run, Failure> {
         let choices = self.copied.clone().unwrap_or_else(|| self.choices(state, &task.program));
         let known = choices.iter().cloned().collect();

@@ -1,16 +1,16 @@
-//! How often a chain proposed, and how often it accepted, by site of the program.
+//! Counts of the proposals and acceptances of a chain, by site of the program.
 
 use niwaki_vm::code::{FunctionId, Program, SiteKind};
 use serde::{Deserialize, Serialize};
 
-/// Proposals at one site.
+/// Counts of the proposals at a site.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Count {
-    /// How many there were.
+    /// The number of proposals.
     pub proposed: u64,
-    /// How many were kept.
+    /// The number of accepted proposals.
     pub accepted: u64,
-    /// How many lay outside the support of the choice's distribution.
+    /// The number of proposals outside the support of the prior.
     pub outside: u64,
 }
 
@@ -22,19 +22,19 @@ impl std::ops::AddAssign for Count {
     }
 }
 
-/// Proposals by site, and those of moves that change many choices.
+/// Counts by site, and counts of moves that change many choices.
 #[derive(Clone, Debug)]
 pub struct Counts {
-    /// Number of a function's first site among all sites.
+    /// The number of the first site of each function among all sites.
     first: Vec<u32>,
-    /// By number of the site.
+    /// Counts by number of the site.
     pub sites: Vec<Count>,
-    /// Blocks and regenerated calls.
+    /// Counts of blocks and regenerated calls.
     pub many: Count,
 }
 
 impl Counts {
-    /// None yet.
+    /// Start with zero counts.
     pub fn new(program: &Program) -> Counts {
         let (mut first, mut count) = (Vec::new(), 0);
         for f in &program.functions {
@@ -44,20 +44,20 @@ impl Counts {
         Counts { first, sites: vec![Count::default(); count as usize], many: Count::default() }
     }
 
-    /// All proposals together.
+    /// The sum of all counts.
     pub fn all(&self) -> Count {
         let mut all = self.many;
         self.sites.iter().for_each(|site| all += *site);
         all
     }
 
-    /// Number of a site.
+    /// The number of a site among all sites.
     #[inline(always)]
     pub fn number(&self, (function, site): (FunctionId, u16)) -> usize {
         self.first[function.0 as usize] as usize + site as usize
     }
 
-    /// The sites at which choices were proposed: function, readable component, line, counts.
+    /// The sites with proposals: function, readable component, line, counts.
     pub fn named(&self, program: &Program) -> Vec<(String, String, u32, Count)> {
         let mut rows = Vec::new();
         for (f, first) in program.functions.iter().zip(&self.first) {

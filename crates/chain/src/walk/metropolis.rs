@@ -2,7 +2,7 @@
 //!
 //! 1. *Pick* a choice of the present run: evenly, or by selection weights; `W` is their sum.
 //! 2. *Propose* a new value `x' ~ q(. | x)` for it ([`proposal`](crate::walk::proposal)).
-//! 3. *Run on* from there. Everything that reads the value is run again; new choices are drawn from their priors.
+//! 3. *Rerun* from that choice. All code that reads the value runs again; new choices are drawn from their priors.
 //! 4. *Accept* with probability `min(1, a)`, where `p` is the density of all choices and `s` the score:
 //!
 //! ```text
@@ -12,9 +12,9 @@
 //!         + log 1 / W' - log 1 / W               selection: the picked choice weighs the same before and after
 //! ```
 //!
-//! 5. *Keep* the run that was proposed, or *undo* it, on the trace and on the sketches together.
+//! 5. *Keep* the proposed run, or *undo* it, on the trace and on the sketches together.
 //!
-//! Kernels that change many choices differ in the first two steps and in the selection, and share the others (`decide`).
+//! Kernels that change many choices differ in the first two steps and in the selection, and share all further steps (`decide`).
 
 use super::Walk;
 use crate::walk::accept::{Decision, Terms, accepts, selected};
@@ -30,7 +30,7 @@ use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::value::Value;
 
 impl Walk {
-    /// One proposal; choices are picked evenly, or by the weights of a table.
+    /// Make a proposal for a choice. The choice is picked uniformly, or by the weights of a table.
     #[inline(always)]
     pub(crate) fn single<M: Move>(
         &mut self,
@@ -77,8 +77,8 @@ impl Walk {
         Ok(())
     }
 
-    /// The choice that a proposal changes, the sum of all weights, and the proposal's random numbers; `None` where nothing can
-    /// be picked.
+    /// Pick the choice that a proposal changes; with the sum of all weights and the random numbers of the proposal. `None` if no
+    /// choice can be picked.
     #[inline(always)]
     fn pick(
         &mut self,
@@ -100,9 +100,9 @@ impl Walk {
         Some((table.map_or(at as usize, |t| self.tables[t].find(at)), total, now))
     }
 
-    /// Decides over the open transaction. `selection` is the log probability of choosing the move, afterwards less before;
-    /// `moved` names the choices that the proposal itself changed, with their values before. The acceptance draw is
-    /// the next number of `rng`.
+    /// Accept or reject the open transaction. `selection` is the log probability of choosing the move after the proposal, less the
+    /// log probability before. `moved` are the choices that the proposal itself changed, with their previous values. The next number
+    /// of `rng` is the acceptance draw.
     #[inline(always)]
     pub(crate) fn decide(
         &mut self,
@@ -157,10 +157,10 @@ impl Walk {
         Ok(self.last)
     }
 
-    /// Shows the scene of the open transaction to the sketches.
+    /// Update the sketches with the scene of the open transaction.
     ///
     /// # Errors
-    /// A sketch scores NaN; the chain is back in its last state.
+    /// A sketch scores NaN; the chain returns to its last state.
     #[inline(always)]
     pub(crate) fn show(&mut self, program: &Program) -> Result<(), Failure> {
         self.state.update_sketches().inspect_err(|_| {
@@ -169,7 +169,7 @@ impl Walk {
         })
     }
 
-    /// Keeps the open transaction.
+    /// Keep the open transaction.
     #[inline(always)]
     pub(crate) fn keep(&mut self, program: &Program, moved: impl IntoIterator<Item = (u128, Value)>) {
         if self.best.is_noting() {
@@ -182,10 +182,10 @@ impl Walk {
         self.best.compare(&self.state, program, self.visit);
     }
 
-    /// A proposal raised a fault. Where that makes the run invalid, the proposal is impossible, and counted.
+    /// Handle a fault of a proposal. A fault that makes the run invalid makes the proposal impossible, and is counted.
     ///
     /// # Errors
-    /// Any other fault; the chain is back in its last state.
+    /// Any other fault; the chain returns to its last state.
     #[cold]
     pub(crate) fn give_up(&mut self, task: &Task, met: Box<RunFault>) -> Result<Change, Failure> {
         if task.invalid.count(&met).is_some() {

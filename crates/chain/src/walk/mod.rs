@@ -1,11 +1,11 @@
-//! A chain without its kernel: the present run, what is noted of it, and how a proposal on it is decided.
+//! Chains without kernels: the present run, its statistics, and the decision on a proposal.
 //!
-//! * [`state`]: the state; [`streams`]: its random numbers; [`weights`]: which choice is changed;
-//! * `metropolis`: the algorithm, for one choice; [`accept`]: the acceptance ratio, in plain letters;
-//! * [`proposal`]: a new value for one choice;
-//! * [`counts`], [`best`], [`samples`]: what is reported afterwards.
+//! * [`state`]: the state; [`streams`]: its random numbers; [`weights`]: selection weights of choices;
+//! * `metropolis`: the algorithm for a single choice; [`accept`]: the acceptance ratio;
+//! * [`proposal`]: a new value for a choice;
+//! * [`counts`], [`best`], [`samples`]: results of the chain.
 //!
-//! Not here: kernels.
+//! Kernels are in other modules.
 
 pub mod accept;
 pub mod best;
@@ -33,39 +33,40 @@ use weights::Table;
 
 /// A chain without its kernel.
 pub struct Walk {
-    /// Its state.
+    /// The state.
     pub state: State,
-    /// Proposals by site.
+    /// Counts of proposals by site.
     pub counts: Counts,
     /// The best state so far.
     pub best: Best,
     /// Thinned states.
     pub samples: Samples,
-    /// The power of the score that it follows.
+    /// The power of the score in the target of the chain.
     pub(crate) beta: f64,
-    /// How much of a run is executed again.
+    /// The strategy of re-execution.
     pub(crate) strategy: Strategy,
-    /// Proposals before the first sample.
+    /// The number of proposals before the first sample.
     pub(crate) warmup: u64,
     pub(crate) streams: Streams,
-    /// Weights of the choices, for the leaves that do not take all alike.
+    /// Weights of the choices, for the leaves whose selection is not uniform.
     pub(crate) tables: Vec<Table>,
     /// Spreads of the sites' distributions in the first state.
     pub(crate) spreads: Vec<f64>,
     /// The number of proposals so far.
     pub(crate) visit: u64,
-    /// Particle-steps of parts that were grown again.
+    /// The number of particle steps of regrown parts.
     pub(crate) grown: u64,
     /// The decisions of the next proposal.
     pub(crate) ahead: Ahead,
     /// The last decision.
     pub(crate) last: Decision,
-    /// How many primitives, factors and observations together a state must have, where that is fixed.
+    /// The number of barriers (primitives, factors and observations) of a state, if it is fixed.
     pub(crate) barriers: Option<usize>,
 }
 
 impl Walk {
-    /// From a state, with the spreads of its sites' distributions, by key. It picks choices evenly, has no warm-up and keeps no samples.
+    /// Start from a state, with the spreads of the distributions of its sites by key. The chain picks choices uniformly, has no
+    /// warm-up and keeps no samples.
     pub(crate) fn start(
         program: &Program,
         streams: Streams,
@@ -92,24 +93,23 @@ impl Walk {
         }
     }
 
-    /// From now on the chain follows this power of the score, over states with a fixed number of barriers where it is given:
-    /// primitives, factors and observations together.
+    /// Change the target of the chain to this power of the score. With `barriers`, the target has only states with that number of
+    /// primitives, factors and observations.
     pub fn restrict(&mut self, beta: f64, barriers: Option<usize>) {
         (self.beta, self.barriers) = (beta, barriers);
     }
 
-    /// What it has done: proposals, particle-steps of parts that were grown again, and shapes that its state's proposals placed
-    /// or removed.
+    /// The work so far: the number of proposals, of particle steps of regrown parts, and of shapes that proposals added or removed.
     pub fn work(&self) -> u64 {
         self.visit + self.grown + self.state.moved
     }
 
-    /// The decision on its last proposal.
+    /// The decision on the last proposal.
     pub fn last(&self) -> Decision {
         self.last
     }
 
-    /// How many proposals it has made.
+    /// The number of proposals so far.
     pub fn visit(&self) -> u64 {
         self.visit
     }
@@ -119,7 +119,7 @@ impl Walk {
         self.state.run(program, self.visit)
     }
 
-    /// The share of the warm-up that is over before a proposal; none after the warm-up, when nothing is adapted.
+    /// The share of the warm-up that is over before a proposal; `None` after the warm-up, when adaptation has ended.
     pub(crate) fn warming(&self, visit: u64) -> Option<f64> {
         let warmup = self.warmup;
         (visit < warmup).then(|| visit as f64 / warmup as f64)
@@ -134,12 +134,12 @@ impl Walk {
         warmup + (self.visit.saturating_sub(warmup) / thin + 1) * thin
     }
 
-    /// Keeps the present state among the samples.
+    /// Add the present state to the samples.
     pub(crate) fn sample(&mut self, program: &Program) {
         self.samples.keep(&self.state, program, self.visit, self.warmup);
     }
 
-    /// Exchanges states with another chain of the same program and kernel.
+    /// Exchange states with another chain of the same program and kernel.
     pub(crate) fn exchange_with(&mut self, other: &mut Self) {
         std::mem::swap(&mut self.state, &mut other.state);
         std::mem::swap(&mut self.tables, &mut other.tables);
@@ -152,15 +152,15 @@ pub struct Proposing<'a, 'm> {
     pub(crate) chain: &'a mut Walk,
     pub(crate) task: &'a Task,
     pub(crate) machine: &'a mut Machine<'m>,
-    /// The weights of the leaf's choices; all weigh the same where there are none.
+    /// The weights of the leaf's choices; `None` for equal weights.
     pub(crate) table: Option<usize>,
     /// The power of the score.
     pub(crate) beta: f64,
 }
 
-/// A move that needs the kept run of a chain, and all that the chain has for it.
+/// A move on the kept run of a chain.
 pub trait ChainMove {
-    /// Makes one proposal, and decides on it.
+    /// Make a proposal and decide on it.
     ///
     /// # Errors
     /// A fault of the program, or of the proposal.

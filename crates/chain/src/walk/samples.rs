@@ -1,4 +1,4 @@
-//! Samples of a chain, thinned, in bounded memory.
+//! Thinned samples of a chain, in bounded memory.
 
 use crate::walk::state::State;
 use niwaki_run::run::Run;
@@ -11,25 +11,25 @@ pub struct Samples {
     pub all: Vec<Arc<Run>>,
     /// Proposals between two samples; doubled when they take too much memory. Zero: no samples.
     pub thin: u64,
-    /// Most choices that all samples together may hold.
+    /// The most choices of all samples together.
     room: usize,
     held: usize,
 }
 
 impl Samples {
-    /// None yet; one is due every `thin` proposals.
+    /// Start without samples; a sample is due every `thin` proposals.
     pub fn new(thin: u64, room: usize) -> Samples {
         Samples { all: vec![], thin, room: room.max(1), held: 0 }
     }
 
-    /// Takes the samples of a chain that goes on.
+    /// Restore the samples of a chain that resumes.
     pub(crate) fn restore(&mut self, all: Vec<Run>, thin: u64) {
         self.held = all.iter().map(|sample| sample.log.len() + 1).sum();
         (self.all, self.thin) = (all.into_iter().map(Arc::new).collect(), thin);
     }
 
-    /// Keeps the present state. When the samples hold too many choices, every other one is dropped; those left are the
-    /// ones that twice the thinning would have kept; `warmup` is where the first interval began.
+    /// Add the present state. When the samples hold too many choices, every second sample is dropped: the remaining samples are
+    /// those of twice the thinning. `warmup` is the proposal at which the first interval began.
     pub fn keep(&mut self, state: &State, program: &Program, visit: u64, warmup: u64) {
         self.held += state.trace.len() + 1;
         self.all.push(Arc::new(state.run(program, visit)));

@@ -25,24 +25,23 @@ pub struct State {
     pub sketches: Sketches,
     /// Their log score, nats; minus infinity when they forbid the scene.
     pub log_sketches: Total,
-    /// How many primitives the scene has.
+    /// The number of primitives of the scene.
     pub primitives: usize,
-    /// How many shapes proposals have taken out of the scene or put into it.
+    /// The number of shapes that proposals have removed from the scene or added to it.
     pub moved: u64,
-    /// How many it had before the open transaction.
+    /// The number of primitives before the open transaction.
     primitives_before: usize,
-    /// The sketches before the open transaction, and their log score, where it changed the scene: a copy that shares
-    /// with them what did not change.
+    /// The sketches before the open transaction and their log score, if the transaction changed the scene. The copy shares
+    /// unchanged data.
     before: Option<(Sketches, Total)>,
 }
 
 impl State {
-    /// A first state, and the spreads of its sites' distributions: forward runs until one is possible, at most `tries`.
-    /// With `known`, choices have those values.
+    /// Find a first state by at most `tries` forward runs, with the spreads of the distributions of its sites. `known` has values of
+    /// choices.
     ///
     /// # Errors
-    /// No run was possible ([`Failure::NoStart`]), or a fault of the program: also of runs that
-    /// are all invalid.
+    /// No run was possible ([`Failure::NoStart`]); a fault of the program, also where all runs are invalid.
     pub fn start(
         task: &Task,
         streams: Streams,
@@ -52,10 +51,10 @@ impl State {
         State::tried(task, streams, tries, known).map(|(state, spreads, _)| (state, spreads))
     }
 
-    /// The same, with the number of runs that it took.
+    /// Like [`State::start`], and also return the number of runs.
     ///
     /// # Errors
-    /// As for [`State::start`].
+    /// The errors of [`State::start`].
     pub fn tried(
         task: &Task,
         streams: Streams,
@@ -65,10 +64,10 @@ impl State {
         State::tried_after(task, streams, 0, tries.max(1), known)
     }
 
-    /// The same, after so many runs that had another fault; `tries` counts these too.
+    /// Like [`State::tried`], after a number of runs that failed otherwise, which `tries` includes.
     ///
     /// # Errors
-    /// As for [`State::start`].
+    /// The errors of [`State::start`].
     pub fn tried_after(
         task: &Task,
         streams: Streams,
@@ -79,7 +78,7 @@ impl State {
         let mut machine = task.machine();
         let (mut causes, mut all): (HashMap<String, usize>, _) = (HashMap::new(), AllInvalid::default());
         for attempt in first..tries {
-            // The last visits, so that no proposal has their numbers.
+            // Visits count down from the last number, so that no proposal has the same visit.
             let (key, mut spreads) = (streams.fresh(u64::MAX - attempt), HashMap::new());
             let mut answers = Fresh { spreads: Some(&mut spreads), ..Fresh::of(key, known, &*task.hosts) };
             let (trace, change) = match task.begin(&mut machine, &mut answers) {
@@ -122,10 +121,10 @@ impl State {
         Err(Failure::NoStart { tries, causes })
     }
 
-    /// The state of a run with these values; the sketches already hold its scene.
+    /// Create the state of a run with these values. The sketches already hold the scene of the run.
     ///
     /// # Errors
-    /// A fault of the program; values with which it is impossible.
+    /// A fault of the program; values that make the run impossible.
     pub fn of_run(
         task: &Task,
         known: &HashMap<u128, Value>,
@@ -146,10 +145,10 @@ impl State {
         Ok(State { trace, sketches, log_sketches, primitives, moved: 0, primitives_before, before: None })
     }
 
-    /// A state with these choices, which have their numbers in that order.
+    /// Create a state with these choices, numbered in this order.
     ///
     /// # Errors
-    /// A fault of the program; values with which a run is impossible, or that are not those of a run.
+    /// A fault of the program; values that make the run impossible, or that do not belong to a run.
     pub(crate) fn of_choices(task: &Task, choices: &[(u128, Value)]) -> Result<State, Failure> {
         let known = choices.iter().cloned().collect();
         let (mut state, _) = State::start(task, Streams::new(0, 0), 1, Some(&known))?;
@@ -160,17 +159,17 @@ impl State {
         Ok(state)
     }
 
-    /// Its choices.
+    /// The choices of the state.
     pub fn choices<'a>(&'a self, program: &'a Program) -> impl Iterator<Item = (u128, Value)> + 'a {
         choices(&self.trace, program)
     }
 
-    /// As a finished run, reached after `visit` proposals.
+    /// Convert the state after `visit` proposals to a finished run.
     pub fn run(&self, program: &Program, visit: u64) -> Run {
         Run { log: self.choices(program).collect(), value: self.trace.result(), ..self.scores(visit) }
     }
 
-    /// The same without choices and value, which are slow to copy.
+    /// Like [`State::run`], without choices and value, which are slow to copy.
     pub(super) fn scores(&self, visit: u64) -> Run {
         Run {
             log_prior: self.trace.totals().log_prior.value(),
@@ -183,19 +182,19 @@ impl State {
         }
     }
 
-    /// Factors, observations and sketches, nats.
+    /// The log score, nats: factors, observations and sketches.
     #[inline]
     pub fn log_score(&self) -> f64 {
         self.score().value()
     }
 
-    /// The same, exactly.
+    /// The log score as an exact sum.
     #[inline]
     pub fn score(&self) -> Total {
         self.trace.totals().log_factors.plus(&self.log_sketches)
     }
 
-    /// Applies the open transaction's changes of the scene to the sketches, once.
+    /// Apply the changes of the scene by the open transaction to the sketches, once.
     ///
     /// # Errors
     /// A sketch scores NaN.
@@ -218,13 +217,13 @@ impl State {
         Ok(())
     }
 
-    /// What the open transaction adds to the sketches' log score, where it changed the scene.
+    /// The change of the sketches' log score by the open transaction; `None` if the scene did not change.
     #[inline]
     pub fn sketch_change(&self) -> Option<Total> {
         self.before.as_ref().map(|(_, log_before)| self.log_sketches.less(log_before))
     }
 
-    /// Undoes what [`State::update_sketches`] did; the trace is still to be rolled back.
+    /// Undo [`State::update_sketches`]. The caller rolls back the trace.
     #[inline]
     pub fn restore_sketches(&mut self) {
         if let Some(before) = self.before.take() {
@@ -234,7 +233,7 @@ impl State {
     }
 }
 
-/// The choices of a trace.
+/// The choices of a trace, in order.
 pub(crate) fn choices<'a>(
     trace: &'a Trace,
     program: &'a Program,
@@ -242,7 +241,7 @@ pub(crate) fn choices<'a>(
     trace.numbers().map(|n| (trace.address(program, n), trace.choice(program, n).0.clone()))
 }
 
-/// What makes a run impossible: the factor or choice at which it stopped.
+/// The name of the factor or choice that makes a run impossible.
 fn impossible(trace: &Trace, task: &Task) -> String {
     let mut cause = None;
     trace.visit(&task.program, |place, item| {

@@ -1,13 +1,13 @@
-//! The random streams of a chain: a function of (seed, chain, address, visit). The visit is the number of the
-//! proposal. So no draw depends on how much of the program was run again.
+//! Random streams of a chain, keyed by (seed, chain, address, visit). The visit is the number of the proposal. No draw depends on
+//! the amount of code that runs again.
 
 use niwaki_math::first_blocks::{EIGHT, FirstBlock, eight};
 use niwaki_math::{RngCore, Stream, StreamKey};
 
-/// Stream numbers for each chain, one for each purpose.
+/// The number of streams of a chain: a stream for each purpose.
 const STREAMS: u64 = 8;
 
-/// The streams of one chain.
+/// The streams of a chain.
 #[derive(Clone, Copy, Debug)]
 pub struct Streams {
     fresh: StreamKey,
@@ -17,38 +17,38 @@ pub struct Streams {
 }
 
 impl Streams {
-    /// Of the `chain`-th chain of a seed.
+    /// The streams of the `chain`-th chain of a seed.
     pub fn new(seed: u64, chain: u64) -> Streams {
         let key = |which| StreamKey::new(seed, chain.wrapping_mul(STREAMS).wrapping_add(which), 0);
         Streams { fresh: key(0), moves: key(1), decisions: key(2), schedule: key(3) }
     }
 
-    /// For new choices, and for choices that are drawn anew.
+    /// The stream of new and redrawn choices.
     #[inline]
     pub fn fresh(self, visit: u64) -> StreamKey {
         self.fresh.revisited(visit)
     }
 
-    /// For new values of old choices.
+    /// The stream of new values of existing choices.
     #[inline]
     pub fn moves(self, visit: u64) -> StreamKey {
         self.moves.revisited(visit)
     }
 
-    /// For the choice that is changed, and for the acceptance: the first two numbers.
+    /// The stream of decisions: its first two numbers pick the choice and decide on the acceptance.
     #[inline]
     pub fn decisions(self, visit: u64) -> Stream {
         self.decisions.revisited(visit).at(0)
     }
 
-    /// For the next kernel of a mixture.
+    /// The stream that picks the next kernel of a mixture.
     #[inline]
     pub fn schedule(self, visit: u64) -> Stream {
         self.schedule.revisited(visit).at(0)
     }
 }
 
-/// The random numbers of the next proposals. They are made together, which is quicker, and before the proposals run, so that
+/// The random numbers of the next proposals. They are generated together, which is faster, and before the proposals run, so that
 /// memory can be prefetched.
 #[derive(Debug, Default)]
 pub(crate) struct Ahead {
@@ -57,22 +57,22 @@ pub(crate) struct Ahead {
     made: Vec<Decisions>,
 }
 
-/// Those of one proposal.
+/// The random numbers of a proposal.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Decisions {
     decisions: FirstBlock,
-    /// For the new value of the choice at an address.
+    /// The stream of the new value, by address of the choice.
     pub moves: FirstBlock,
 }
 
 impl Decisions {
-    /// The first number as one below `n`.
+    /// The first number, scaled below `n`.
     #[inline(always)]
     pub fn below(&self, n: u64) -> u64 {
         scaled(self.decisions.first(), n)
     }
 
-    /// The numbers after it.
+    /// The numbers after the first.
     #[inline(always)]
     pub fn rest(&self) -> Stream {
         let mut stream = self.decisions.at(0);
@@ -82,7 +82,7 @@ impl Decisions {
 }
 
 impl Ahead {
-    /// Those of a proposal. `guess` is where the choice probably is that a proposal changes whose first number is this.
+    /// The random numbers of a proposal. `guess` maps the first number of a proposal to the probable address of its choice.
     #[inline(always)]
     pub fn of(&mut self, streams: &Streams, visit: u64, guess: impl Fn(u64) -> u128) -> &Decisions {
         let mut lane = visit.wrapping_sub(self.from);
@@ -114,13 +114,13 @@ impl Ahead {
     }
 }
 
-/// A number below `n` from the first number of a proposal's decisions, evenly (up to `n / 2^64`).
+/// Scale the first number of a proposal's decisions below `n`, uniformly up to `n / 2^64`.
 #[inline(always)]
 pub(crate) fn scaled(bits: u64, n: u64) -> u64 {
     ((u128::from(bits) * u128::from(n)) >> 64) as u64
 }
 
-/// A number below `n`, evenly (up to `n / 2^64`).
+/// Draw a number below `n`, uniformly up to `n / 2^64`.
 #[inline(always)]
 pub fn below(rng: &mut Stream, n: u64) -> u64 {
     scaled(rng.next_u64(), n)

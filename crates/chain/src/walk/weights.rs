@@ -1,16 +1,16 @@
-//! Selection weights: the weight with which each choice is chosen to be changed.
+//! Selection weights: the probability of picking a choice for a proposal is proportional to its weight.
 //!
 //! Weights are whole numbers (in units of [`UNIT`](niwaki_run::select::UNIT)), so that their sums are exact for any births and deaths, and a tree of
-//! partial sums (Fenwick 1994) finds a choice, adds one and drops one in O(log n).
+//! partial sums (Fenwick 1994) finds, adds and drops a choice in O(log n).
 
 use niwaki_run::select::Selection;
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::kept::Trace;
 use niwaki_vm::machine::kept::inspect::Place;
 
-/// How a choice is weighed, by its place in the trace.
+/// A function from the place of a choice in the trace to its weight.
 pub trait Weigh: Send + Sync {
-    /// Its weight; it must not depend on any value.
+    /// The weight of a choice. It must not depend on any value.
     fn weight(&self, place: &Place<'_, f64>) -> u64;
 }
 
@@ -27,12 +27,12 @@ pub struct Table {
     /// `sums[i]` covers the `lowbit(i + 1)` weights up to `i`.
     sums: Vec<u64>,
     total: u64,
-    /// While there were no births and deaths, and all weights above zero are equal: that weight, and its choices.
+    /// The common weight and its choices, if all weights above zero are equal and no choice was added or removed.
     alike: Option<(u64, Vec<u32>)>,
 }
 
 impl Table {
-    /// The weights of a trace's choices.
+    /// Compute the weights of the choices of a trace.
     pub fn new(weigh: Box<dyn Weigh>, trace: &Trace, program: &Program) -> Table {
         let mut table = Table { weigh, weights: vec![], sums: vec![], total: 0, alike: None };
         for choice in trace.numbers() {
@@ -50,7 +50,7 @@ impl Table {
         self.weights.iter().all(|w| *w == 0 || *w == weight).then_some((weight, choices))
     }
 
-    /// Sum of all weights.
+    /// The sum of all weights.
     pub fn total(&self) -> u64 {
         self.total
     }
@@ -87,14 +87,14 @@ impl Table {
         below
     }
 
-    /// Sum of all weights once the open transaction is kept.
+    /// The sum of all weights after the open transaction is kept.
     pub fn total_after(&self, trace: &Trace, program: &Program) -> u64 {
-        let gone: u64 = trace.deaths().iter().map(|dead| self.weights[*dead as usize]).sum();
+        let removed: u64 = trace.deaths().iter().map(|dead| self.weights[*dead as usize]).sum();
         let come: u64 = trace.births(program).map(|place| self.weigh(&place)).sum();
-        self.total - gone + come
+        self.total - removed + come
     }
 
-    /// Follows the trace's table, just before the open transaction is kept.
+    /// Update the weights, just before the open transaction is kept.
     #[inline]
     pub fn follow(&mut self, trace: &Trace, program: &Program) {
         if !trace.deaths().is_empty() || trace.births(program).len() > 0 {
@@ -155,7 +155,6 @@ fn lowest_bit(i: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
-    //! The tree of sums gives the same choice as a linear search, after any pushes, pops and changes.
     use super::*;
 
     struct Same;

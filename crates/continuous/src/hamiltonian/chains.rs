@@ -1,6 +1,6 @@
-//! Whole chains, side by side: warm-up, then draws from a kernel that no longer changes.
+//! Parallel chains: warm-up, then draws from a frozen kernel.
 //!
-//! Random streams are keyed by (seed, chain, what for, step), so a chain's draws do not depend on the number of
+//! Random streams are keyed by (seed, chain, purpose, step), so a chain's draws do not depend on the number of
 //! threads, nor on the other chains.
 
 use super::climb::climb;
@@ -15,17 +15,17 @@ use super::warmup::Adaptation;
 use niwaki_math::Stream;
 use rayon::prelude::*;
 
-/// How the length of a trajectory is chosen.
+/// The rule for the length of a trajectory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Length {
-    /// A fixed number of leapfrog steps, jittered by a share of it.
+    /// A fixed number of leapfrog steps, with jitter.
     Fixed {
         /// Leapfrog steps.
         steps: u32,
-        /// In `[0, 1]`.
+        /// The jitter, as a share of the steps, in `[0, 1]`.
         jitter: f64,
     },
-    /// Until it turns back.
+    /// A length until the trajectory turns back.
     NoUTurn {
         /// Most doublings.
         max_depth: u32,
@@ -33,7 +33,7 @@ pub enum Length {
 }
 
 impl Length {
-    /// A kernel of that length.
+    /// Create a kernel of this length.
     pub fn kernel(self, max_energy_error: f64) -> Kernel {
         match self {
             Length::Fixed { steps, jitter } => Kernel::Hmc(Hmc::new(steps, jitter, max_energy_error)),
@@ -48,23 +48,23 @@ pub const MAX_ENERGY_ERROR: f64 = 1000.0;
 /// The settings of a chain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// How long trajectories are.
+    /// The length of trajectories.
     pub length: Length,
-    /// Steps uphill from the start, before the warm-up.
+    /// The number of ascent steps from the start, before the warm-up.
     pub climb: u32,
-    /// Transitions during which step size and metric are adapted; their draws are not returned.
+    /// The number of warm-up transitions, which adapt step size and metric; their draws are dropped.
     pub warmup: u32,
-    /// Draws afterwards.
+    /// The number of draws after the warm-up.
     pub draws: u32,
-    /// Transitions for each draw, at least one.
+    /// The number of transitions for each draw, at least one.
     pub thin: u32,
-    /// Mean acceptance that the step size is adapted to.
+    /// The target acceptance of the adaptation of the step size.
     pub target_accept: f64,
-    /// What shape of metric is fitted.
+    /// The shape of the fitted metric.
     pub shape: Shape,
-    /// The metric to begin with; the identity when left out.
+    /// The first metric; by default the identity.
     pub metric: Option<Metric>,
-    /// A step size to keep throughout; adapted when left out.
+    /// A fixed step size; by default it is adapted.
     pub step_size: Option<f64>,
     /// An energy error above this many nats is a divergence.
     pub max_energy_error: f64,
@@ -114,11 +114,11 @@ pub enum Purpose {
     Length,
 }
 
-/// One chain: its point and its kernel.
+/// A chain: its point and its kernel.
 pub struct Chain<P> {
     /// The target.
     pub target: P,
-    /// Its point.
+    /// The present point.
     pub phase: Phase,
     /// The metric in use.
     pub metric: Metric,
@@ -130,9 +130,9 @@ pub struct Chain<P> {
     pub seed: u64,
     /// Which chain.
     pub number: u64,
-    /// Transitions so far.
+    /// The number of transitions so far.
     pub visit: u64,
-    /// Gradients taken uphill.
+    /// The number of gradients of the ascent.
     pub climbed: u32,
 }
 
@@ -182,7 +182,7 @@ impl<P: Potential> Chain<P> {
         Stream::new(self.seed, 0, Purpose::Length as u128, self.visit)
     }
 
-    /// One transition.
+    /// Make a transition.
     pub fn advance(&mut self) -> Transition {
         let (mut stream, mut lengths) = (self.stream(Purpose::Transition), self.lengths());
         self.visit += 1;
@@ -204,10 +204,10 @@ impl<P: Potential> Chain<P> {
     }
 }
 
-/// The draws of one chain, with their statistics.
+/// The draws of a chain, with their statistics.
 #[derive(Clone, Debug, Default)]
 pub struct Draws {
-    /// How many coordinates.
+    /// The number of coordinates.
     pub dim: usize,
     /// The draws by rows, unconstrained, `(n, dim)`.
     pub x: Vec<f64>,
@@ -227,7 +227,7 @@ pub struct Draws {
     pub off_structure: Vec<bool>,
     /// The trajectories that broke off after warm-up.
     pub divergences: Vec<Divergence>,
-    /// How many broke off, in warm-up and after it.
+    /// Counts of trajectories that broke off, in warm-up and after it.
     pub broken: BrokenOff,
     /// Gradients taken after warm-up.
     pub gradients: u64,
@@ -242,12 +242,12 @@ pub struct Draws {
 }
 
 impl Draws {
-    /// How many draws there are.
+    /// The number of draws.
     pub fn len(&self) -> usize {
         self.energy.len()
     }
 
-    /// Whether there is none.
+    /// Whether there are no draws.
     pub fn is_empty(&self) -> bool {
         self.energy.is_empty()
     }
@@ -257,7 +257,7 @@ impl Draws {
         self.x.chunks_exact(self.dim.max(1))
     }
 
-    /// Counts a transition of the warm-up.
+    /// Count a transition of the warm-up.
     pub(super) fn count_warmup(&mut self, transition: &Transition) {
         self.warmup_gradients += u64::from(transition.steps);
         if let Some(divergence) = &transition.divergence {
@@ -265,7 +265,7 @@ impl Draws {
         }
     }
 
-    /// Counts a transition after warm-up, and returns how it broke off.
+    /// Count a transition after warm-up; return the kind of its break.
     pub(super) fn count(&mut self, transition: &Transition) -> Marks {
         self.gradients += u64::from(transition.steps);
         let Some(divergence) = &transition.divergence else { return Marks::default() };
@@ -275,7 +275,7 @@ impl Draws {
         Marks { diverging: !off_structure, off_structure }
     }
 
-    /// Adds the chain's point as a draw.
+    /// Add the present point as a draw.
     pub(super) fn push(&mut self, phase: &Phase, transition: &Transition, broke_off: Marks) {
         self.x.extend_from_slice(&phase.x);
         self.log_density.push(phase.log_density);
@@ -295,12 +295,12 @@ pub(super) struct Marks {
     off_structure: bool,
 }
 
-/// A chain could not start.
+/// The failure of a chain that could not start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BadStart {
     /// Which chain.
     pub chain: usize,
-    /// Why the target refused its start.
+    /// The reason of the target for refusing the start.
     pub stop: Stop,
 }
 
@@ -333,7 +333,7 @@ pub fn sample<P: Potential>(
     draws.into_iter().collect()
 }
 
-/// Warms a chain up, then draws.
+/// Run a chain: warm-up, then draws.
 pub fn run<P: Potential>(chain: Chain<P>, settings: &Settings, watch: &dyn Fn(u32) -> bool) -> Draws {
     let mut ongoing = Ongoing::new(chain, settings);
     while !ongoing.is_over() {
@@ -353,7 +353,7 @@ pub(super) struct Ongoing<'a, P> {
     warmed: u32,
     /// Transitions left until the next draw.
     left: u32,
-    /// How those since the last draw broke off.
+    /// The kinds of breaks since the last draw.
     broke_off: Marks,
 }
 
@@ -371,7 +371,7 @@ impl<'a, P: Potential> Ongoing<'a, P> {
         self.draws.interrupted || self.warmed == self.settings.warmup && drawn
     }
 
-    /// Adapts to a transition of the warm-up, or counts and keeps one after it.
+    /// Adapt to a transition of the warm-up, or record a transition after it.
     pub(super) fn take(&mut self, transition: &Transition) {
         if self.warmed < self.settings.warmup {
             self.warmed += 1;
@@ -389,7 +389,7 @@ impl<'a, P: Potential> Ongoing<'a, P> {
         }
     }
 
-    /// Calls `watch` regularly, and stops the chain when it returns false.
+    /// Call `watch` regularly, and stop the chain when it returns false.
     pub(super) fn check(&mut self, watch: &dyn Fn(u32) -> bool) {
         let visit = self.chain.visit;
         self.draws.interrupted |= visit.is_multiple_of(GLANCE) && !watch(visit as u32);

@@ -1,4 +1,4 @@
-//! Hamiltonian Monte Carlo with a length that is fixed beforehand: draw a momentum, integrate, accept or stay.
+//! Hamiltonian Monte Carlo with a fixed length: draw a momentum, integrate, accept or stay.
 //!
 //! Accepts with probability `min(1, exp(H(x, p) - H(x', p')))` (dissertation 4.3; Neal 2011, section 3.3). The
 //! number of steps may be jittered: it is drawn before the trajectory starts, so that a length which happens to be a
@@ -10,26 +10,26 @@ use super::potential::{Cause, Potential, Stop};
 use super::transition::{Divergence, Transition, acceptance};
 use niwaki_math::Stream;
 
-/// A fixed length.
+/// A kernel of fixed length.
 #[derive(Clone, Debug)]
 pub struct Hmc {
-    /// Leapfrog steps of a trajectory (the dissertation's `L`).
+    /// The number of leapfrog steps of a trajectory (`L` in the dissertation).
     pub steps: u32,
     /// The number of steps is uniform within this share of `steps`; 0 for a constant one.
     pub jitter: f64,
     /// An energy error above this many nats is a divergence.
     pub max_energy_error: f64,
-    /// The start of the trajectory, to go back to.
+    /// The start of the trajectory, for rejections.
     before: Option<Phase>,
 }
 
 impl Hmc {
-    /// `steps` leapfrog steps, at least one; `jitter` in `[0, 1]`.
+    /// Create a kernel with `steps` leapfrog steps, at least one, and `jitter` in `[0, 1]`.
     pub fn new(steps: u32, jitter: f64, max_energy_error: f64) -> Hmc {
         Hmc { steps: steps.max(1), jitter, max_energy_error, before: None }
     }
 
-    /// How many steps this time.
+    /// Draw the number of steps of a trajectory.
     pub(super) fn length(&self, stream: &mut Stream) -> u32 {
         if self.jitter == 0.0 {
             return self.steps;
@@ -39,7 +39,7 @@ impl Hmc {
         (f64::from(self.steps) + offset).max(1.0) as u32
     }
 
-    /// One transition of `phase`.
+    /// Make a transition of `phase`.
     pub fn step(
         &mut self,
         target: &mut (impl Potential + ?Sized),
@@ -71,14 +71,14 @@ impl Hmc {
         self.end(start, refused, phase, stream)
     }
 
-    /// Keeps where the trajectory starts, its momentum drawn.
+    /// Store the start of the trajectory, and draw its momentum.
     pub(super) fn begin(&mut self, phase: &Phase, steps: u32) -> Start {
         let before = self.before.get_or_insert_with(|| phase.clone());
         before.copy_from(phase);
         Start { steps, energy: before.energy() }
     }
 
-    /// Accepts the end of the trajectory, or goes back. Momentum and velocity are those at the end.
+    /// Accept the end of the trajectory, or reset the point. Momentum and velocity are those at the end.
     ///
     /// Between the ends only the gradient is evaluated, so a divergence is noticed at the end, or where numbers overflow:
     /// there the kinetic energy shows that the trajectory had diverged before.
@@ -115,12 +115,12 @@ impl Hmc {
     }
 }
 
-/// How a trajectory starts.
+/// The start of a trajectory.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Start {
-    /// Leapfrog steps to make.
+    /// The number of leapfrog steps.
     pub(super) steps: u32,
-    /// The Hamiltonian there, nats.
+    /// The Hamiltonian at the start, nats.
     pub(super) energy: f64,
 }
 

@@ -7,7 +7,7 @@ use super::leapfrog::{add, dot};
 use niwaki_math::Stream;
 use serde::Deserialize;
 
-/// What shape of metric a warm-up fits.
+/// The shape of the metric that a warm-up fits.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub enum Shape {
@@ -15,8 +15,8 @@ pub enum Shape {
     Unit,
     /// A scale for each coordinate.
     Diagonal,
-    /// The whole covariance: `dim^2` numbers, and as many operations for each step. For what is nearly normal: where the
-    /// target is bent, the covariance of one arm can hold a chain there (R-hat shows it).
+    /// The whole covariance: `dim^2` numbers, and as many operations for each step. It suits nearly normal targets: in a bent target,
+    /// the covariance of an arm can hold a chain there (R-hat shows it).
     Dense,
     /// A scale for each coordinate and a few directions that are stretched or squeezed.
     LowRank,
@@ -83,7 +83,7 @@ impl Metric {
         }
     }
 
-    /// Writes `M^-1 p` to `v`.
+    /// Write `M^-1 p` to `v`.
     #[inline]
     pub fn velocity(&self, p: &[f64], v: &mut [f64]) {
         match self {
@@ -112,7 +112,7 @@ impl Metric {
         }
     }
 
-    /// Writes a draw of `N(0, M)` to `p`.
+    /// Write a draw of `N(0, M)` to `p`.
     pub fn momentum(&self, stream: &mut Stream, p: &mut [f64]) {
         p.iter_mut().for_each(|z| *z = stream.normal());
         match self {

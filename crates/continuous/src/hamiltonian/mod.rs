@@ -1,18 +1,18 @@
-//! Hamiltonian Monte Carlo: a point moves along its gradient over the log density, and is accepted or put back.
+//! Hamiltonian Monte Carlo: a point moves along the gradient of the log density, and is accepted or reset.
 //!
 //! In the order of a step: momentum from the metric, leapfrog steps along the gradient, acceptance by the change of
 //! the total energy `H(x, p) = p . v / 2 - log_density(x)`, with velocity `v = M^-1 p` (dissertation 4.3).
 //!
-//! * [`potential`]: what a target is: a log density with its gradient, and what may stop a trajectory;
+//! * [`potential`]: targets: a log density with its gradient, and the reasons that stop a trajectory;
 //! * [`metric`]: the mass matrix `M`: diagonal, dense, or diagonal with a low-rank correction;
 //! * [`leapfrog`]: the integrator;
-//! * [`hmc`], [`nuts`]: one transition, with a fixed length and until it turns back;
-//! * [`transition`]: what both report, and the choice between them;
+//! * [`hmc`], [`nuts`]: transitions of fixed length, and until the trajectory turns back;
+//! * [`transition`]: the report of a transition, and the choice between both kernels;
 //! * [`mod@climb`]: the ascent from an unlikely start;
-//! * [`step_size`], [`estimate`], [`warmup`]: what is adapted in warm-up and frozen afterwards;
-//! * [`chains`]: whole chains, in parallel; [`lanes`]: many of them in the lanes of one vector.
+//! * [`step_size`], [`estimate`], [`warmup`]: the adaptation during warm-up;
+//! * [`chains`]: whole chains, in parallel; [`lanes`]: many chains in the lanes of a vector.
 //!
-//! Not here: programs, how a gradient is computed, diagnostics of the draws (they are the package's).
+//! The diagnostics of the draws are in the Python package.
 
 pub mod chains;
 pub mod climb;

@@ -8,7 +8,7 @@ use niwaki_grad::Rolling;
 
 /// A log density over `dim` real coordinates, with its gradient.
 pub trait Potential {
-    /// How many coordinates.
+    /// The number of coordinates.
     fn dim(&self) -> usize;
 
     /// The log density at `x`, nats, upward; its gradient is written to `gradient`. Both slices have `dim` elements.
@@ -21,7 +21,7 @@ pub trait Potential {
     /// inside of a trajectory.
     ///
     /// # Errors
-    /// As for [`Potential::value_and_gradient`]; a density of zero may go unseen.
+    /// The errors of [`Potential::value_and_gradient`]; a density of zero may remain undetected.
     #[inline]
     fn gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<(), Stop> {
         self.value_and_gradient(x, gradient).map(|_| ())
@@ -67,19 +67,19 @@ impl<P: Potential + ?Sized> Potential for Box<P> {
     }
 }
 
-/// Why a trajectory ended early.
+/// The reason why a trajectory ended early.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stop {
     /// The kind of reason.
     pub cause: Cause,
-    /// Which one of its kind, as the target numbers them (a guard, an operation, a coordinate).
+    /// The number of the guard, operation or coordinate in the target.
     pub place: u32,
 }
 
-/// The kinds of reasons for which a trajectory ends.
+/// The kind of reason why a trajectory ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// The program would take another path here, on which the set of choices is another.
+    /// The program would take a different path, with a different set of choices.
     Guard,
     /// The density is zero.
     Impossible,
@@ -88,7 +88,7 @@ pub enum Cause {
 }
 
 impl Cause {
-    /// How many kinds there are.
+    /// The number of kinds.
     pub const COUNT: usize = 3;
 }
 

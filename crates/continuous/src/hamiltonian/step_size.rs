@@ -21,7 +21,7 @@ const FORGETTING: f64 = 0.75;
 /// A step size that is being adapted.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct DualAveraging {
-    /// The acceptance that is wanted.
+    /// The target acceptance.
     #[serde(with = "bits")]
     pub target: f64,
     #[serde(with = "bits")]
@@ -37,13 +37,13 @@ pub struct DualAveraging {
 }
 
 impl DualAveraging {
-    /// Starts from a guess; iterates are drawn to ten times that.
+    /// Start from a guess; iterates are drawn towards ten times the guess.
     pub fn new(first: f64, target: f64) -> DualAveraging {
         let mu = (10.0 * first).ln();
         DualAveraging { target, mu, log_step: first.ln(), log_mean: 0.0, error: 0.0, count: 0.0 }
     }
 
-    /// Learns from the acceptance of one transition, in `[0, 1]`.
+    /// Adapt to the acceptance of a transition, in `[0, 1]`.
     pub fn update(&mut self, accept: f64) {
         self.count += 1.0;
         let weight = 1.0 / (self.count + OFFSET);
@@ -53,12 +53,12 @@ impl DualAveraging {
         self.log_mean += weight * (self.log_step - self.log_mean);
     }
 
-    /// The step to use next while adapting.
+    /// The next step size during adaptation.
     pub fn current(&self) -> f64 {
         self.log_step.exp()
     }
 
-    /// The step to keep.
+    /// The final step size.
     pub fn settled(&self) -> f64 {
         if self.count > 0.0 { self.log_mean.exp() } else { self.current() }
     }

@@ -7,46 +7,46 @@ use super::nuts::Nuts;
 use super::potential::{Cause, Potential, Stop};
 use niwaki_math::Stream;
 
-/// The result of one transition.
+/// The result of a transition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transition {
-    /// Mean acceptance probability over the trajectory's proposals, in `[0, 1]`: what the step size is adapted to.
+    /// The mean acceptance probability over the trajectory's proposals, in `[0, 1]`, to which the step size adapts.
     pub accept: f64,
     /// Whether the point moved.
     pub moved: bool,
-    /// Leapfrog steps, each of which is one gradient.
+    /// The number of leapfrog steps, each with a gradient.
     pub steps: u32,
     /// Doublings of a trajectory that finds its own length; 0 for a fixed length.
     pub depth: u32,
     /// The Hamiltonian at the start, with the fresh momentum, nats.
     pub start_energy: f64,
-    /// The Hamiltonian at the point that was kept, nats.
+    /// The Hamiltonian at the new point, nats.
     pub energy: f64,
-    /// Why the trajectory broke off, if it did.
+    /// The reason why the trajectory broke off, if it did.
     pub divergence: Option<Divergence>,
 }
 
 /// A trajectory that broke off.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Divergence {
-    /// Where the trajectory started, unconstrained.
+    /// The start of the trajectory, unconstrained.
     pub start: Vec<f64>,
-    /// Where it broke off, unconstrained; may hold numbers that are not finite.
+    /// The point where it broke off, unconstrained; its numbers may not be finite.
     pub end: Vec<f64>,
-    /// How far the energy had drifted, nats; NaN where the target refused the point.
+    /// The drift of the energy, nats; NaN if the target refused the point.
     pub energy_error: f64,
-    /// The target's refusal, if that was the reason.
+    /// The refusal of the target, if it was the reason.
     pub stop: Option<Stop>,
 }
 
 /// Trajectories that broke off.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct BrokenOff {
-    /// How many after the warm-up the target refused, by [`Cause`].
+    /// Refusals of the target after the warm-up, by [`Cause`].
     pub refused: [u64; Cause::COUNT],
-    /// How many after the warm-up drifted in energy.
+    /// Trajectories after the warm-up whose energy drifted.
     pub drifted: u64,
-    /// How many in the warm-up, for any reason.
+    /// Trajectories in the warm-up, for any reason.
     pub in_warmup: u64,
 }
 
@@ -74,12 +74,12 @@ impl std::ops::AddAssign for BrokenOff {
 pub enum Kernel {
     /// A fixed number of leapfrog steps.
     Hmc(Hmc),
-    /// As many steps as it takes to turn back.
+    /// A number of steps until the trajectory turns back.
     Nuts(Nuts),
 }
 
 impl Kernel {
-    /// One transition of `phase`, whose momentum is drawn afresh.
+    /// Make a transition of `phase` with a new momentum.
     pub fn step(
         &mut self,
         target: &mut (impl Potential + ?Sized),

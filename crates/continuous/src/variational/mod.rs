@@ -1,18 +1,18 @@
-//! Variational inference: a normal over real coordinates that is as near to a target as its family allows.
+//! Variational inference: the normal over real coordinates that approximates a target best within its family.
 //!
 //! The evidence bound of a normal `q` is `E_q[log p(x) - log q(x)]`, nats: below the log evidence by the divergence
 //! `KL(q || p)`. The nearer `q` is, the higher the bound.
 //!
 //! * [`normal`]: a normal with a scale for each coordinate, a low-rank or a dense one: drawing, and its density;
-//! * [`turns`]: its density where coordinates are angles, on the circle;
+//! * [`turns`]: the density of a normal whose coordinates are angles;
 //! * [`mixture`]: several normals as one proposal;
-//! * [`batch`]: a target at several draws at once, and what becomes of draws that it refuses;
+//! * [`batch`]: targets at several draws at once, and the treatment of refused draws;
 //! * [`curvature`]: an inverse Hessian from the steps of an ascent;
-//! * [`pathfinder`]: an ascent, and the best of the normals along it (Zhang, Carpenter, Gelman & Vehtari 2022);
+//! * [`pathfinder`]: an ascent, and the best normal along its path (Zhang, Carpenter, Gelman & Vehtari 2022);
 //! * [`family`]: the parameters of a normal that an ascent of the bound moves, and the bound's gradient;
-//! * [`ascent`]: that ascent: Adam, means of iterates, when it ends.
+//! * [`ascent`]: the ascent of the bound: Adam, means of iterates, the stopping rule.
 //!
-//! Not here: programs (they are in `gradient/approximate.rs`), weights of draws and Pareto's k (they are the package's).
+//! Weights of draws and Pareto's k are in the Python package.
 
 pub mod ascent;
 pub mod batch;

@@ -139,11 +139,11 @@ pub(super) fn enumerated(
     let together = SharedSteps::new(around.limits.steps.saturating_sub(*steps));
     let limits = limits_inside(around.limits, around.depth)?;
     let inside = Hosted { limits, depth: around.depth + 1, ..around.clone() };
-    let found = runs(&inside, model, args, max_runs, &together).and_then(ranked).map_err(|failure| {
+    let ranking = runs(&inside, model, args, max_runs, &together).and_then(ranked).map_err(|failure| {
         if together.is_spent() { too_long(name, limits.steps) } else { fault_of(name, failure) }
     });
     *steps = steps.saturating_add(together.used());
-    found
+    ranking
 }
 
 /// The values of all runs, in the order of their first appearance.

@@ -1,4 +1,4 @@
-//! The branches of an enumeration that are open: all of them, the last first, or the likeliest first.
+//! Open branches of an enumeration: a stack, or a queue by probability.
 
 use super::Visit;
 use crate::chooser::Chosen;
@@ -9,39 +9,39 @@ use niwaki_vm::machine::state::State;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// A run up to an open choice, and how it goes on.
+/// A run up to an open choice, and the value with which it resumes.
 pub(super) struct Branch {
     pub state: State,
     pub record: Record,
     pub next: Next,
 }
 
-/// The value with which a run goes on.
+/// The value with which a run resumes.
 pub(super) enum Next {
-    /// It has not begun.
+    /// The start of the run, before any choice.
     Start,
-    /// This value.
+    /// A value.
     Value(Chosen),
-    /// A whole number from here on, one by one; the probability of all of them.
-    From { dist: Dist, value: i64, left: f64 },
+    /// All whole numbers from `value` on, with the sum of their probabilities.
+    From { dist: Dist, value: i64, tail: f64 },
 }
 
 impl Next {
-    /// Log of its probability at the choice.
+    /// The log probability of the value at the choice.
     fn log(&self) -> f64 {
         match self {
             Next::Start => 0.0,
             Next::Value(chosen) => chosen.log_prior,
-            Next::From { left, .. } => left.ln(),
+            Next::From { tail, .. } => tail.ln(),
         }
     }
 }
 
-/// The branches that are open.
+/// The open branches.
 pub(super) enum Frontier {
-    /// The last goes on first.
+    /// A stack: the last branch resumes first.
     All(Vec<Branch>),
-    /// The likeliest goes on first.
+    /// A queue: the most probable branch resumes first.
     Likely(Likely),
 }
 
@@ -52,7 +52,7 @@ impl Frontier {
             Visit::Likely { runs, .. } => Frontier::Likely(Likely {
                 most: runs.saturating_mul(OPEN).saturating_add(FEWEST),
                 open: BinaryHeap::new(),
-                made: 0,
+                count: 0,
                 dropped: Vec::new(),
             }),
         }
@@ -72,9 +72,9 @@ impl Frontier {
         }
     }
 
-    /// What was never visited: its prior probability, and the log of the most that it adds to the evidence, where the rest of
-    /// a run adds at most `rest` to its score. Branches that must all be visited leave nothing.
-    pub fn unseen(self, rest: f64) -> (f64, f64) {
+    /// The prior probability of all runs that were never visited, and the log of the most that they add to the evidence. The
+    /// remainder of a run adds at most `max_gain` nats to its score. A stack leaves no runs.
+    pub fn unvisited(self, max_gain: f64) -> (f64, f64) {
         let Frontier::Likely(likely) = self else { return (0.0, f64::NEG_INFINITY) };
         let open = likely.open.into_iter().map(|ranked| ranked.logs);
         let left: Vec<Logs> = likely.dropped.into_iter().chain(open).collect();
@@ -82,21 +82,21 @@ impl Frontier {
             return (0.0, f64::NEG_INFINITY);
         }
         let sum = |of: fn(&Logs) -> f64| log_sum_exp(left.iter().map(of));
-        (sum(|logs| logs.prior).exp(), sum(|logs| logs.joint) + rest)
+        (sum(|logs| logs.prior).exp(), sum(|logs| logs.joint) + max_gain)
     }
 }
 
-/// Of more open branches than this for each run that may be visited, and [`FEWEST`], the least likely are given up.
+/// The most open branches for each run that may be visited, beside [`FEWEST`]: the least probable branches beyond are dropped.
 const OPEN: usize = 4;
 const FEWEST: usize = 1000;
 
 /// Branches by their joint probability.
 pub(super) struct Likely {
-    /// How many may be open.
+    /// The most open branches.
     most: usize,
     open: BinaryHeap<Ranked>,
-    made: u64,
-    /// Of branches that were given up.
+    count: u64,
+    /// The probabilities of dropped branches.
     dropped: Vec<Logs>,
 }
 
@@ -104,8 +104,8 @@ impl Likely {
     fn push(&mut self, branch: Branch) {
         let prior = branch.record.log_prior.value() + branch.next.log();
         let logs = Logs { prior, joint: prior + branch.record.score().value() };
-        self.open.push(Ranked { logs, number: self.made, branch });
-        self.made += 1;
+        self.open.push(Ranked { logs, number: self.count, branch });
+        self.count += 1;
         if self.open.len() > self.most {
             let mut sorted = std::mem::take(&mut self.open).into_sorted_vec();
             self.dropped.extend(sorted.drain(..self.most / 2).map(|ranked| ranked.logs));
@@ -120,14 +120,14 @@ struct Logs {
     joint: f64,
 }
 
-/// A branch, how likely it is, and how many were made before it.
+/// A branch with its probability and the number of branches before it.
 struct Ranked {
     logs: Logs,
     number: u64,
     branch: Branch,
 }
 
-/// In the order of their joint probability; of equals the last first.
+/// The order by joint probability; of equal branches the last comes first.
 impl Ord for Ranked {
     fn cmp(&self, other: &Ranked) -> Ordering {
         self.logs.joint.total_cmp(&other.logs.joint).then(self.number.cmp(&other.number))

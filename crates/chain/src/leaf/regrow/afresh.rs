@@ -1,7 +1,7 @@
-//! One part of a run grown again, and everything outside of it as it was.
+//! Fresh regrowth: a part of a run is grown again, and everything outside of the part is held.
 //!
 //! Particles grow the part from its inputs, in a scene that has everything else. Their weights are those of regrowth, but
-//! none of them holds the present values: they follow the law of the part given the rest, by weight.
+//! no particle holds the present values. With their weights they follow the conditional law of the part.
 
 use super::{Block, Contents, Regrow, Weighing, pick, refuse_memoised};
 use crate::walk::Walk;
@@ -18,21 +18,20 @@ use niwaki_vm::value::Value;
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// How a part is grown again.
+/// The settings of a fresh regrowth.
 #[derive(Clone, Copy, Debug)]
 pub struct Afresh<'a> {
-    /// A pattern that matches the part alone.
+    /// A pattern that matches only the part.
     pub part: &'a str,
-    /// How many particles.
+    /// The number of particles.
     pub particles: usize,
     /// The power of the score.
     pub power: f64,
-    /// Decides every random number.
+    /// The seed of all random numbers.
     pub seed: u64,
 }
 
-/// The runs that are the one with these values outside of the part: one for each particle that is possible, with its
-/// weight.
+/// Grow a part again. Returns a run for each possible particle, with its weight; outside of the part each run has these values.
 ///
 /// # Errors
 /// A pattern that matches no part or several, no particles, values of an impossible run, particles that are all impossible, a fault of the
@@ -52,7 +51,7 @@ pub fn afresh(task: &Task, known: &HashMap<u128, Value>, with: &Afresh<'_>) -> R
     let (Contents { held, rest, numbers }, sketches) = contents.ok_or_else(Failure::no_start)?;
     let (outside, start) = (outside(&held), state.trace.start_part(program, picked.part, false));
     let (selection, path) = (Selection::default(), state.trace.part_path(picked.part));
-    let own = Regrow {
+    let kernel = Regrow {
         particles: with.particles,
         turn: 0.0,
         pick: pick::Pick::default(),
@@ -80,16 +79,16 @@ pub fn afresh(task: &Task, known: &HashMap<u128, Value>, with: &Afresh<'_>) -> R
     let block = block(with.particles);
     let mut set = block.free(&mut machine, None, moves.at(1).next_u64())?;
     let weighing =
-        Weighing { task, own: &own, picked: &picked, block: &block, numbers: &numbers, emits: None };
+        Weighing { task, kernel: &kernel, picked: &picked, block: &block, numbers: &numbers, emits: None };
     let before = (&present.grown[0], present.grown[0].result());
     chain.weigh_last(&mut machine, &weighing, &mut set, Some(before))?;
     if set.log_mean == f64::NEG_INFINITY {
-        let causes = set.grown.iter().map(|one| one.particle.record.cause.as_deref());
+        let causes = set.grown.iter().map(|member| member.particle.record.cause.as_deref());
         let named = causes.map(|cause| (cause.unwrap_or("a change outside of the part"), 1));
         return Err(Failure::impossible(0, named));
     }
     let weighed = set.grown.iter().zip(&set.weights.relative).filter(|(_, weight)| **weight > 0.0);
-    let parts: Vec<_> = weighed.map(|(one, weight)| (one.values(&block), weight.ln())).collect();
+    let parts: Vec<_> = weighed.map(|(member, weight)| (member.values(&block), weight.ln())).collect();
     let whole = |(part, log_weight): (HashMap<u128, Value>, f64)| {
         let known = outside.iter().map(|(address, value)| (*address, value.clone())).chain(part).collect();
         let (state, _) = State::start(task, streams, 1, Some(&known))?;

@@ -1,22 +1,21 @@
-//! Regrowth: a part of the run is grown again in place by conditional SMC, and everything else is held.
+//! Regrowth: conditional SMC grows a part of the run again in place, and holds everything else.
 //!
-//! Particle Gibbs of a block: the block `B` is what the part chooses, `R` is all else. Particles grow the part from its
-//! inputs, in a scene that already has everything of `R`; one of them holds the present values, under an order of its
-//! futures that is drawn anew. One particle is drawn by weight, and its values replace the part's. This leaves
+//! Regrowth is particle Gibbs of a block: the block `B` has the choices of the part, `R` all other choices. Particles grow the part
+//! from its inputs, in a scene that already has all parts of `R`. One particle holds the present values, under a redrawn order
+//! of its futures. A particle is drawn by weight, and its values replace those of the part. This leaves
 //! `p(B | R)` invariant for any number of particles (Andrieu, Doucet & Holenstein 2010, section 4.5).
 //!
-//! * `pick`: which part is grown again. The pick is an auxiliary variable: its probability, in each particle's run,
-//!   multiplies that particle's last weight.
-//! * [`afresh()`]: one named part grown again by particles of which none holds the present values;
+//! * `pick`: the choice of the part. The pick is an auxiliary variable: its probability in each particle's run multiplies the last
+//!   weight of the particle.
+//! * [`afresh()`]: regrowth of a named part by particles without the present values;
 //! * Values come from their priors, or from a proposal: a user's or a guide. The weights count prior over proposal then,
 //!   also those of the particle that holds the present values.
 //! * Particles are compared in the scene around the part, and a guide sees it; it must be the same on the way back. So a
-//!   particle with whose result shapes outside of the part move has weight zero: the posterior is kept within the runs
-//!   that share that scene.
+//!   particle whose result moves shapes outside of the part has weight zero: the posterior is invariant within the runs that
+//!   share that scene.
 //! * `reach`: whether a chain of such moves alone reaches every run; `sweep`: SMC of a part; `turn`: other values of a discrete choice.
-//! * Where a part returns another value than before, the rest of the run is evaluated with it: the densities of the held
-//!   choices and the score change, and multiply the weight. A run that does not make exactly the choices of `R` beside
-//!   its own has weight zero.
+//! * If a part returns a different value, the run outside of the part is evaluated again: the change of the densities of held
+//!   choices and of the score multiplies the weight. A run whose choices outside of the part are not exactly `R` has weight zero.
 //! * *Turn and regrow*: a discrete choice of the part's own activation gets another value `v'`, drawn from `g(v' | v)`.
 //!   Conditional SMC with the old value estimates the normalising constant `Z`, free SMC with the new one estimates `Z'`,
 //!   and the probabilities of the pick, of the choice and of `g` are in both. The new part is kept with probability
@@ -56,24 +55,24 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use sweep::{Block, Grown, Set};
 
-/// One regrowth.
+/// A regrowth move.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Regrow {
-    /// Particles, the one with the present values among them.
+    /// The number of particles, including the particle with the present values.
     particles: usize,
-    /// How often a discrete choice of the part is turned, where it has one.
+    /// The probability of turning a discrete choice of the part, if it has one.
     turn: f64,
-    /// Which part is grown again.
+    /// The rule that picks the part.
     pick: Pick,
-    /// Whether the best of particles that all grow the part afresh is kept where it is better: a search, which leaves no
-    /// distribution invariant.
+    /// Whether the move keeps the best of fresh particles if it is better: an optimising move, which leaves no distribution
+    /// invariant.
     #[serde(default)]
     best: bool,
-    /// What draws values in place of the prior.
+    /// The proposal that draws values in place of the prior.
     #[serde(skip)]
     proposal: Option<Arc<Proposal>>,
-    /// Which choices may change.
+    /// The selection of choices that may change.
     #[serde(skip)]
     selection: Selection,
 }
@@ -82,22 +81,22 @@ impl Regrow {
     /// Ranges of its settings.
     pub(crate) const RANGES: Ranges = &[("particles", whole(2)), ("turn", SHARE)];
 
-    /// From now on a proposal draws the values of the particles.
+    /// Set the proposal that draws the values of the particles.
     pub(crate) fn draw_by(&mut self, proposal: Arc<Proposal>) {
         self.proposal = Some(proposal);
     }
 
-    /// Whether it looks at the scene.
+    /// Whether the move uses the scene.
     pub(crate) fn looks(&self) -> bool {
         self.proposal.as_ref().is_some_and(|proposal| proposal.looks())
     }
 
-    /// Whether the addresses of a part are to be readable from the root.
+    /// Whether addresses of a part must be readable from the root.
     fn needs_paths(&self) -> bool {
         !self.selection.is_all() || self.proposal.as_ref().is_some_and(|proposal| proposal.needs_origins())
     }
 
-    /// Takes the choices that may change.
+    /// Set the selection of choices that may change.
     ///
     /// # Errors
     /// Selection weights.
@@ -119,19 +118,19 @@ struct Turned {
     new: Value,
 }
 
-/// What a part chooses.
+/// The choices of a part.
 struct Contents {
     /// The choices that may change: address and value.
     held: HashMap<u128, Value>,
-    /// The others.
+    /// The choices that may not change.
     rest: HashMap<u128, Value>,
-    /// The numbers of those that may change.
+    /// The numbers of the choices that may change.
     numbers: Vec<usize>,
 }
 
 impl Contents {
-    /// What a part of a run chooses, and the sketches of the scene without it; `None` where that scene alone is impossible, so
-    /// that no particle could start from it.
+    /// The choices of a part of a run, and the sketches of the scene without the part. `None` if that scene is impossible, so that no
+    /// particle can start.
     fn of(
         state: &State,
         program: &Program,
@@ -139,16 +138,16 @@ impl Contents {
         is_selected: &dyn Fn(usize) -> bool,
     ) -> Option<(Contents, Sketches)> {
         let trace = &state.trace;
-        let mut own = Contents { held: HashMap::new(), rest: HashMap::new(), numbers: vec![] };
+        let mut contents = Contents { held: HashMap::new(), rest: HashMap::new(), numbers: vec![] };
         let mut gone = vec![];
         trace.all_pieces(program, part, |piece| match piece {
             Piece::Choice(n) => {
                 let (address, value) = (trace.address(program, n), trace.choice(program, n).0.clone());
                 if is_selected(n) {
-                    own.numbers.push(n);
-                    own.held.insert(address, value);
+                    contents.numbers.push(n);
+                    contents.held.insert(address, value);
                 } else {
-                    own.rest.insert(address, value);
+                    contents.rest.insert(address, value);
                 }
             }
             Piece::Emit(primitive) => gone.push(primitive),
@@ -159,7 +158,7 @@ impl Contents {
             let kept = sketches.exchange(gone.iter().copied(), std::iter::empty());
             debug_assert!(kept, "the sketches and the trace hold the same scene");
         }
-        sketches.forbidden_by().is_none().then_some((own, sketches))
+        sketches.forbidden_by().is_none().then_some((contents, sketches))
     }
 }
 
@@ -178,13 +177,13 @@ fn refuse_memoised(program: &Program) -> Result<(), Failure> {
 impl ChainMove for Regrow {
     fn apply(&mut self, proposing: Proposing<'_, '_>) -> Result<(), Failure> {
         let Proposing { chain, task, machine, table, beta } = proposing;
-        let (own, visit, program) = (&*self, chain.visit, &*task.program);
+        let (kernel, visit, program) = (&*self, chain.visit, &*task.program);
         chain.visit += 1;
         refuse_memoised(program)?;
         let mut rng = chain.streams.decisions(visit);
         let trace = &chain.state.trace;
         let is_selected = |choice: usize| table.is_none_or(|t| chain.tables[t].weight(choice) > 0);
-        let Some(picked) = own.pick.draw(trace, program, &is_selected, &mut rng) else {
+        let Some(picked) = kernel.pick.draw(trace, program, &is_selected, &mut rng) else {
             return Ok(());
         };
         let Some((Contents { held, rest, numbers }, sketches)) =
@@ -194,8 +193,8 @@ impl ChainMove for Regrow {
         };
         let moves = chain.streams.moves(visit);
         let seed = |which: u128| moves.at(which).next_u64();
-        let mut start = trace.start_part(program, picked.part, own.needs_paths());
-        if own.looks() {
+        let mut start = trace.start_part(program, picked.part, kernel.needs_paths());
+        if kernel.looks() {
             trace.note_parts(program, picked.part, &mut start);
         }
         let block = Block {
@@ -205,14 +204,14 @@ impl ChainMove for Regrow {
             sketches,
             held: &held,
             rest: &rest,
-            selection: &own.selection,
-            proposal: own.proposal.as_deref(),
+            selection: &kernel.selection,
+            proposal: kernel.proposal.as_deref(),
             beta,
-            particles: own.particles,
+            particles: kernel.particles,
         };
-        let is_turned = rng.uniform() < own.turn;
+        let is_turned = rng.uniform() < kernel.turn;
         let turned = if is_turned { block.turned(machine, &mut rng)? } else { None };
-        if own.best {
+        if kernel.best {
             let set = block.free(machine, turned.as_ref(), seed(1))?;
             chain.grown += set.steps;
             return chain.keep_best(machine, &block, &set, &numbers, &mut rng);
@@ -221,7 +220,7 @@ impl ChainMove for Regrow {
         let held_result = set.grown[0].result();
         chain.grown += set.steps;
         let emits = Some(chain.state.trace.emits_of(program, picked.part));
-        let weighing = Weighing { task, own, picked: &picked, block: &block, numbers: &numbers, emits };
+        let weighing = Weighing { task, kernel, picked: &picked, block: &block, numbers: &numbers, emits };
         chain.weigh_last(machine, &weighing, &mut set, None)?;
         debug_assert!(set.log_mean > f64::NEG_INFINITY, "the present values are possible");
         let mut log_ratio = 0.0;
@@ -255,15 +254,15 @@ impl ChainMove for Regrow {
     }
 }
 
-/// What the last weights of the particles depend on.
+/// The inputs of the last weights of the particles.
 struct Weighing<'a> {
     task: &'a Task,
-    own: &'a Regrow,
+    kernel: &'a Regrow,
     picked: &'a Picked,
     block: &'a Block<'a>,
     /// The numbers of the part's choices that may change.
     numbers: &'a [usize],
-    /// Numbers of its primitives, ascending; `None` where it may move what is around it, as in a search.
+    /// The numbers of the primitives of the part, ascending; `None` if it may move shapes around it, as in an optimising move.
     emits: Option<Vec<u32>>,
 }
 
@@ -273,14 +272,15 @@ impl Weighing<'_> {
     fn keeps_scene(&self, trace: &Trace) -> bool {
         let Some(before) = &self.emits else { return true };
         let (gone, come) = trace.exchanged();
-        let inside = |numbers: &[u32], own: &[u32]| numbers.iter().all(|one| own.binary_search(one).is_ok());
+        let inside =
+            |numbers: &[u32], all: &[u32]| numbers.iter().all(|number| all.binary_search(number).is_ok());
         inside(gone, before)
             && (come.is_empty() || inside(come, &trace.emits_of(&self.task.program, self.picked.part)))
     }
 }
 
 impl Walk {
-    /// Opens a transaction that gives choices of a part the values of a particle.
+    /// Open a transaction that gives choices of a part the values of a particle.
     fn replace(
         &mut self,
         task: &Task,
@@ -295,8 +295,8 @@ impl Walk {
         }
     }
 
-    /// The best of particles that grew a part afresh takes its place, if the score is higher, or by chance with the
-    /// probability that the power of the score gives to a lower one.
+    /// Replace a part by the best of fresh particles if the score is higher; otherwise with the probability that the power of the score
+    /// gives to a lower score.
     fn keep_best(
         &mut self,
         machine: &mut Machine<'_>,
@@ -347,7 +347,8 @@ impl Walk {
         for grown in &set.grown {
             let mut log = grown.particle.log_weight;
             if grown.is_complete(with.block, is_turned) && log > f64::NEG_INFINITY {
-                log += with.picked.log_probability(&grown.seen) + turn::log_form(with.own.turn, &grown.seen);
+                log +=
+                    with.picked.log_probability(&grown.seen) + turn::log_form(with.kernel.turn, &grown.seen);
             } else {
                 log = f64::NEG_INFINITY;
             }

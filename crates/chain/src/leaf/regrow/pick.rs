@@ -1,4 +1,4 @@
-//! Which part is grown again, and how probable that pick is in another run.
+//! The pick of a part for regrowth, and its probability in another run.
 //!
 //! By size: a part that matters may be a single choice among hundreds, and most of the others may be small and far down.
 //! So the size is drawn first, evenly over its logarithm, and the run is descended from the whole to parts below, by the
@@ -9,8 +9,8 @@
 //! q(part) = P(size of the part <= T < size of the part above) * product over the levels of sqrt(size) / sum of sqrt(sizes)
 //! ```
 //!
-//! All of this depends on the part's own size and on parts outside of it, so the probability in a particle's run follows
-//! from the number of choices that it made.
+//! All factors depend only on the size of the part and on parts outside of it, so the probability in a particle's run follows from
+//! its number of choices.
 
 use super::sweep::Seen;
 use niwaki_math::Stream;
@@ -24,21 +24,21 @@ use serde::Deserialize;
 
 /// Larger parts, as a share of all choices, are rare: they cost most, and rarely grow better as a whole.
 const LARGE: f64 = 0.4;
-/// How often a part may be larger than that.
+/// The probability that a part may be larger.
 const RARE: f64 = 0.05;
-/// How often it is the whole run.
+/// The probability of the whole run.
 const WHOLE: f64 = 0.01;
 
-/// A rule by which a part is picked.
+/// A rule that picks a part.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(rename_all = "kebab-case")]
 pub enum Pick {
-    /// Evenly over the logarithm of the size.
+    /// By size: uniform over the logarithm of the size.
     #[default]
     Size,
-    /// The activation of a choice that is drawn evenly.
+    /// By choice: the activation of a uniformly drawn choice.
     Choice,
-    /// Evenly one of the activations whose address one of these patterns matches, and no other above it.
+    /// By name: uniform among the outermost activations whose addresses match one of these patterns.
     Parts(Vec<String>),
 }
 
@@ -53,22 +53,22 @@ struct Sized {
 /// A level of the descent to a part: the part there, and those beside it.
 struct Level {
     size: u64,
-    /// Sum of the square roots of the sizes of those beside it.
+    /// The sum of the square roots of the sizes of the neighbouring parts.
     beside: f64,
 }
 
-/// A part that was picked.
+/// A picked part.
 pub(super) struct Picked {
     pub part: Part,
-    /// Its choices that may change.
+    /// The choices of the part that may change.
     size: u64,
     how: How,
 }
 
 enum How {
-    /// The same in any run.
+    /// A probability that is the same in any run.
     Even,
-    /// By a choice, out of so many.
+    /// By choice, out of this number of choices.
     Choice(u64),
     /// By descent: the whole run, and then each level.
     Size(Vec<Level>),
@@ -82,7 +82,7 @@ fn below(size: u64, all: u64) -> f64 {
 }
 
 impl Pick {
-    /// Picks a part; `None` where nothing can be picked.
+    /// Pick a part; `None` if no part can be picked.
     pub(super) fn draw(
         &self,
         trace: &Trace,
@@ -118,7 +118,7 @@ impl Pick {
                 loop {
                     let Sized { part, size, below: inner } = &parts[at];
                     let roots: Vec<f64> =
-                        parts[inner.clone()].iter().map(|one| (one.size as f64).sqrt()).collect();
+                        parts[inner.clone()].iter().map(|part| (part.size as f64).sqrt()).collect();
                     let sum: f64 = roots.iter().sum();
                     if u >= below(*size, all) || sum == 0.0 {
                         return Some(Picked { part: *part, size: *size, how: How::Size(levels) });
@@ -133,7 +133,7 @@ impl Pick {
 }
 
 impl Picked {
-    /// Log probability of the same pick in a run whose part is another.
+    /// The log probability of the same pick in a run with a different part.
     pub(super) fn log_probability(&self, seen: &Seen) -> f64 {
         if seen.selected == 0 {
             return f64::NEG_INFINITY;
@@ -157,7 +157,7 @@ impl Picked {
     }
 }
 
-/// Those of the parts with a choice whose name one of the patterns matches, and no other above them.
+/// The outermost parts with a choice whose names match one of the patterns.
 fn named(parts: &[Sized], trace: &Trace, program: &Program, patterns: &[String]) -> Vec<usize> {
     let mut matching = Vec::new();
     let mut work = vec![0];
@@ -171,10 +171,10 @@ fn named(parts: &[Sized], trace: &Trace, program: &Program, patterns: &[String])
     matching
 }
 
-/// The one part whose name a pattern matches.
+/// The only part whose name matches a pattern.
 ///
 /// # Errors
-/// No part, with those that are nearest, or several, with their names.
+/// No part, with the nearest names; or several parts, with their names.
 pub(super) fn only(pattern: &str, trace: &Trace, program: &Program) -> Result<Picked, Fault> {
     let parts = sizes(trace, program, &|_| true);
     let name = |at: usize| trace.part_name(program, parts[at].part);

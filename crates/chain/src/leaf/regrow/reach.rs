@@ -1,8 +1,8 @@
-//! Whether a chain that grows only the activations of choices again reaches every run.
+//! Reachability: a check whether chains of regrowth by choice reach every run.
 //!
-//! Such a kernel changes one activation with choices of its own, and what is below it. All choices outside stay, also which there
-//! are: a run with others has weight zero. So the *outermost* activations with choices of their own are the same in every run that
-//! a chain reaches. Where two runs of the model differ in them, no chain comes from the one to the other:
+//! Such a kernel changes one activation with choices of its own, and what is below it. The set of choices outside of it is fixed:
+//! a run with a different set has weight zero. So the *outermost* activations with choices of their own are the same in every run that
+//! a chain reaches. If two runs of the model differ in these activations, no chain leads between them:
 //!
 //! ```text
 //! for i in range(3):                 an activation for each iteration, and the loop itself makes no choice:
@@ -17,12 +17,12 @@ use niwaki_vm::machine::kept::part::{Part, Piece};
 use niwaki_vm::machine::kept::{Change, Trace};
 use std::collections::BTreeSet;
 
-/// Runs from the prior that are looked at.
+/// The number of runs from the prior.
 const RUNS: u64 = 64;
 
 /// The outermost activations of a run that make choices, by the hashes of their paths.
 fn outermost(trace: &Trace, program: &Program) -> BTreeSet<u128> {
-    let (mut found, mut work) = (BTreeSet::new(), vec![Part::WHOLE]);
+    let (mut activations, mut work) = (BTreeSet::new(), vec![Part::WHOLE]);
     while let Some(part) = work.pop() {
         let (mut below, mut chooses) = (vec![], false);
         trace.pieces(program, part, |piece| match piece {
@@ -31,15 +31,15 @@ fn outermost(trace: &Trace, program: &Program) -> BTreeSet<u128> {
             Piece::Emit(_) | Piece::Held(_) => {}
         });
         if chooses {
-            found.insert(trace.part_path(part));
+            activations.insert(trace.part_path(part));
         } else {
             work.extend(below);
         }
     }
-    found
+    activations
 }
 
-/// Whether a few runs from the prior show that a kernel which grows only the activations of choices again cannot reach all runs.
+/// Check by a few runs from the prior whether regrowth by choice alone cannot reach all runs.
 pub fn is_apart(task: &Task, seed: u64) -> bool {
     let (mut machine, mut first) = (task.machine(), None);
     for stream in 0..RUNS {
@@ -48,8 +48,8 @@ pub fn is_apart(task: &Task, seed: u64) -> bool {
             // An impossible run has ended early.
             Ok((_, Change::Impossible)) => {}
             Ok((trace, _)) => {
-                let found = outermost(&trace, &task.program);
-                if first.get_or_insert_with(|| found.clone()) != &found {
+                let activations = outermost(&trace, &task.program);
+                if first.get_or_insert_with(|| activations.clone()) != &activations {
                     return true;
                 }
             }

@@ -1,5 +1,5 @@
-//! SMC of a part, from its inputs to its result. Weights count the score of the scene, which has the rest of the run from the
-//! start, and the densities of choices that do not change.
+//! SMC of a part, from its inputs to its result. Weights count the score of the scene, which contains everything outside of the part
+//! from the start, and the densities of choices that do not change.
 
 use super::{Turned, turn};
 use niwaki_geom::sketch::product::Sketches;
@@ -22,13 +22,13 @@ use niwaki_vm::machine::state::State;
 use niwaki_vm::value::{Value, identical};
 use std::collections::HashMap;
 
-/// Resampling follows where the effective sample size is below this share of the particles.
+/// The effective sample size, as a share of the particles, below which particles are resampled.
 const LOW: f64 = 0.5;
 
-/// A part that is to be grown, and what is held.
+/// A part to grow, with its held choices.
 pub(super) struct Block<'a> {
     pub task: &'a Task,
-    /// A run of the part that has not begun.
+    /// The state of the part before its start.
     pub start: State,
     /// The path of its first activation.
     pub path: u128,
@@ -36,27 +36,27 @@ pub(super) struct Block<'a> {
     pub sketches: Sketches,
     /// The present values of the choices that may change.
     pub held: &'a HashMap<u128, Value>,
-    /// Those of the part's other choices.
+    /// The values of the part's remaining choices.
     pub rest: &'a HashMap<u128, Value>,
-    /// Which choices may change.
+    /// The selection of choices that may change.
     pub selection: &'a Selection,
-    /// What draws values in place of the prior.
+    /// The proposal that draws values in place of the prior.
     pub proposal: Option<&'a Proposal>,
     /// The power of the score.
     pub beta: f64,
     pub particles: usize,
 }
 
-/// What a particle chose, as far as the probability of the pick depends on it.
+/// Counts of the choices of a particle, on which the probability of the pick depends.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Seen {
-    /// How many choices that may change.
+    /// The number of choices that may change.
     pub selected: u64,
-    /// Those of the part's first activation itself.
+    /// The number of changeable choices of the part's first activation.
     pub direct: u64,
-    /// Those of them that have other values.
+    /// The number of these choices that have other values.
     pub turnable: u64,
-    /// How many of the others.
+    /// The number of remaining choices.
     rest: usize,
     /// Log probability of turning the turned choice to its value on the other side.
     pub log_turn: Option<f64>,
@@ -66,31 +66,31 @@ pub(super) struct Seen {
 pub(super) struct Grown {
     pub particle: Particle,
     pub seen: Seen,
-    /// How often it paused at a barrier.
+    /// The number of pauses at barriers.
     pub barriers: usize,
 }
 
-/// The particles of a part, grown to their ends.
+/// The particles of a part after their ends.
 pub(super) struct Set {
     pub grown: Vec<Grown>,
     pub weights: Normalised,
-    /// Log of the estimate of the normalising constant, nats.
+    /// The log of the estimated normalising constant, nats.
     pub log_mean: f64,
-    /// How often a particle ran to a barrier or to its end.
+    /// The number of particle steps.
     pub steps: u64,
 }
 
-/// Gives the choices of a part their values.
+/// Chooser of the values of a part.
 struct Grow<'a> {
     block: &'a Block<'a>,
     seen: &'a mut Seen,
-    /// Of the particle that holds the present values: these.
+    /// The present values, if the particle holds them.
     held: Option<&'a HashMap<u128, Value>>,
     /// The address of the turned choice, its value in this set and on the other side.
     turned: Option<(u128, &'a Value, &'a Value)>,
     /// The stream of new values.
     stream: StreamKey,
-    /// What the proposal has seen of this particle's run since its last barrier.
+    /// The view of the proposal since the last barrier of this particle.
     sight: &'a mut Sight,
 }
 
@@ -115,7 +115,7 @@ impl Chooser for Grow<'_> {
                     None => fresh.choose(at, dist, seen)?,
                     Some(proposal) => {
                         let (stream, sight) = (self.stream, &mut *self.sight);
-                        ByProposal { proposal, stream, sight, otherwise: fresh }.choose(at, dist, seen)?
+                        ByProposal { proposal, stream, sight, fallback: fresh }.choose(at, dist, seen)?
                     }
                 };
                 let Some(chosen) = drawn else { return Ok(None) };
@@ -125,11 +125,11 @@ impl Chooser for Grow<'_> {
         self.seen.selected += 1;
         if at.activation() == self.block.path && chosen.log_prior > f64::NEG_INFINITY {
             self.seen.direct += 1;
-            let others = turn::others(dist, &chosen.value)?;
-            self.seen.turnable += u64::from(!others.is_empty());
+            let alternatives = turn::alternatives(dist, &chosen.value)?;
+            self.seen.turnable += u64::from(!alternatives.is_empty());
             if let Some((_, _, other)) = turned {
                 self.seen.log_turn =
-                    others.iter().find(|(value, _)| identical(value, other)).map(|(_, log)| *log);
+                    alternatives.iter().find(|(value, _)| identical(value, other)).map(|(_, log)| *log);
             }
         }
         Ok(Some(chosen))
@@ -137,18 +137,18 @@ impl Chooser for Grow<'_> {
 }
 
 impl Grown {
-    /// Whether its run is one of those that can be drawn: it ended, made all of the held choices and the turned one.
+    /// Whether the run can be drawn: it has ended, with all held choices and the turned choice.
     pub fn is_complete(&self, block: &Block<'_>, is_turned: bool) -> bool {
         let has_ended = self.particle.state.has_ended() && self.particle.record.cause.is_none();
         has_ended && self.seen.rest == block.rest.len() && self.seen.log_turn.is_some() == is_turned
     }
 
-    /// What the part returned.
+    /// The result of the part.
     pub fn result(&self) -> Value {
         self.particle.state.result()
     }
 
-    /// Its choices that may change.
+    /// The choices that may change.
     pub fn values(&self, block: &Block<'_>) -> HashMap<u128, Value> {
         let entries = self.particle.record.log.entries();
         let own = entries.into_iter().filter(|e| !e.is_order() && !block.rest.contains_key(&e.address()));
@@ -163,12 +163,12 @@ impl Grown {
 }
 
 impl Block<'_> {
-    /// A choice of the part's first activation that is turned, evenly among those that can be; `None` where none can.
+    /// Draw a choice of the part's first activation to turn, uniformly; `None` if no choice can be turned.
     pub fn turned(&self, machine: &mut Machine<'_>, rng: &mut Stream) -> Result<Option<Turned>, Failure> {
         /// Collects the choices with other values while the present run is followed.
         struct Turnable<'a> {
             block: &'a Block<'a>,
-            met: Vec<(u128, Value, turn::Others)>,
+            met: Vec<(u128, Value, turn::Alternatives)>,
         }
         impl Chooser for Turnable<'_> {
             fn choose(
@@ -181,9 +181,9 @@ impl Block<'_> {
                 let held = self.block.held.get(&address);
                 let Some(value) = held.or_else(|| self.block.rest.get(&address)) else { return Ok(None) };
                 if held.is_some() && at.activation() == self.block.path {
-                    let others = turn::others(dist, value)?;
-                    if !others.is_empty() {
-                        self.met.push((address, value.clone(), others));
+                    let alternatives = turn::alternatives(dist, value)?;
+                    if !alternatives.is_empty() {
+                        self.met.push((address, value.clone(), alternatives));
                     }
                 }
                 Chosen::given(value.clone(), dist).map(Some)
@@ -196,8 +196,8 @@ impl Block<'_> {
             return Ok(None);
         }
         let at = ((rng.uniform() * all.met.len() as f64) as usize).min(all.met.len() - 1);
-        let (address, old, others) = all.met.swap_remove(at);
-        Ok(turn::draw(others, rng).map(|new| Turned { address, old, new }))
+        let (address, old, alternatives) = all.met.swap_remove(at);
+        Ok(turn::draw(alternatives, rng).map(|new| Turned { address, old, new }))
     }
 
     /// Conditional SMC: the first particle holds the present values. A choice that will be turned keeps its value in all.
@@ -233,14 +233,14 @@ impl Block<'_> {
             sketches: self.sketches.fork(),
             ..Record::default()
         };
-        let one = |lineage| Grown {
+        let member = |lineage| Grown {
             particle: Particle::start(self.start.clone(), first.fork(), lineage, seed),
             seen: Seen::default(),
             barriers: 0,
         };
         let lineages = self.particles as u64;
         let set = Set {
-            grown: (0..lineages).map(one).collect(),
+            grown: (0..lineages).map(member).collect(),
             weights: Normalised::default(),
             log_mean: 0.0,
             steps: 0,
@@ -253,7 +253,7 @@ impl Block<'_> {
     }
 }
 
-/// The particles of a part on their way.
+/// The running particles of a part.
 struct Growing<'a, 'm> {
     block: &'a Block<'a>,
     set: Set,
@@ -266,28 +266,28 @@ struct Growing<'a, 'm> {
 }
 
 impl Particles for Growing<'_, '_> {
-    /// Whether any is possible.
+    /// Whether a particle is possible.
     type Seen = bool;
 
     fn running(&mut self) -> usize {
-        let running = self.set.grown.iter().filter(|one| one.particle.is_running()).count();
+        let running = self.set.grown.iter().filter(|member| member.particle.is_running()).count();
         self.set.steps += running as u64;
         running
     }
 
     fn advance(&mut self, held: Option<usize>) -> Result<(), Failure> {
-        for (index, one) in self.set.grown.iter_mut().enumerate() {
+        for (index, member) in self.set.grown.iter_mut().enumerate() {
             self.sight.forget();
             let chooser = Grow {
                 block: self.block,
-                seen: &mut one.seen,
+                seen: &mut member.seen,
                 held: (held == Some(index)).then_some(self.block.held),
                 turned: self.turned,
-                stream: one.particle.stream,
+                stream: member.particle.stream,
                 sight: &mut self.sight,
             };
-            let paused = one.particle.advance(self.machine, self.block.task, self.seed, chooser)?;
-            one.barriers += usize::from(paused);
+            let paused = member.particle.advance(self.machine, self.block.task, self.seed, chooser)?;
+            member.barriers += usize::from(paused);
         }
         Ok(())
     }
@@ -301,14 +301,14 @@ impl Particles for Growing<'_, '_> {
             p.log_weight += p.log_step(beta, &score, beta);
             p.weighed = score;
         }
-        Ok(self.set.weights.read(self.set.grown.iter().map(|one| one.particle.log_weight)))
+        Ok(self.set.weights.read(self.set.grown.iter().map(|member| member.particle.log_weight)))
     }
 
     /// The last weights are those of [`Set::close`].
     fn is_low(&self) -> bool {
         let grown = &self.set.grown;
         self.set.weights.effective < LOW * grown.len() as f64
-            && grown.iter().any(|one| one.particle.is_running())
+            && grown.iter().any(|member| member.particle.is_running())
     }
 
     fn resample(&mut self, held: Option<usize>) -> Result<Option<usize>, Failure> {
@@ -321,7 +321,7 @@ impl Particles for Growing<'_, '_> {
             copy.copy_from(from, *lineages, *seed);
             *lineages += 1;
         }
-        set.grown.iter_mut().for_each(|one| one.particle.log_weight = 0.0);
+        set.grown.iter_mut().for_each(|member| member.particle.log_weight = 0.0);
         Ok(held)
     }
 }
@@ -329,15 +329,15 @@ impl Particles for Growing<'_, '_> {
 impl Set {
     /// The choices of the particle with the highest score, of those with a run that can be drawn; `None` without any.
     pub fn best(&self, block: &Block<'_>) -> Option<HashMap<u128, Value>> {
-        let possible = self.grown.iter().filter(|one| {
-            one.is_complete(block, one.seen.log_turn.is_some())
-                && !one.particle.record.score().is_impossible()
+        let possible = self.grown.iter().filter(|member| {
+            member.is_complete(block, member.seen.log_turn.is_some())
+                && !member.particle.record.score().is_impossible()
         });
-        let score = |one: &&Grown| one.particle.record.log_score();
-        possible.max_by(|a, b| score(a).total_cmp(&score(b))).map(|one| one.values(block))
+        let score = |member: &&Grown| member.particle.record.log_score();
+        possible.max_by(|a, b| score(a).total_cmp(&score(b))).map(|member| member.values(block))
     }
 
-    /// Reads the last log weights; the estimate of the constant is then complete.
+    /// Normalise the last log weights, which completes the estimate of the constant.
     pub fn close(&mut self, logs: &[f64]) {
         if self.log_mean > f64::NEG_INFINITY && self.weights.read(logs.iter().copied()) {
             self.log_mean += self.weights.log_mean;

@@ -119,10 +119,12 @@ impl Structures {
 
     /// Drops the graphs that were not used for longest, while there are too many operations.
     fn shrink(&mut self) {
-        let mut size: usize = self.all.values().map(|one| one.target.live.size()).sum();
+        let mut size: usize = self.all.values().map(|structure| structure.target.live.size()).sum();
         while size > MOST_OPERATIONS && self.all.len() > 1 {
-            let others = self.all.iter().filter(|(key, _)| **key != self.now);
-            let Some(oldest) = others.min_by_key(|(_, one)| one.last).map(|(key, _)| *key) else { return };
+            let older = self.all.iter().filter(|(key, _)| **key != self.now);
+            let Some(oldest) = older.min_by_key(|(_, structure)| structure.last).map(|(key, _)| *key) else {
+                return;
+            };
             if let Some(gone) = self.all.remove(&oldest) {
                 size -= gone.target.live.size();
                 self.dropped += gone.target.live.recordings() as u64;
@@ -138,7 +140,7 @@ impl Structures {
 
     /// Whether a choice of that address is part of the present structure, but for those of one value.
     pub fn knows(&self, address: u128) -> bool {
-        self.all.get(&self.now).is_some_and(|one| one.known.contains(&address))
+        self.all.get(&self.now).is_some_and(|structure| structure.known.contains(&address))
     }
 
     /// Counts on from what was recorded before.
@@ -148,7 +150,7 @@ impl Structures {
 
     /// How many structures were recorded (a dropped one counts again), and how often the program was recorded.
     pub fn recorded(&self) -> (u64, u64) {
-        let recordings: usize = self.all.values().map(|one| one.target.live.recordings()).sum();
+        let recordings: usize = self.all.values().map(|structure| structure.target.live.recordings()).sum();
         (self.met, self.dropped + recordings as u64)
     }
 }

@@ -176,7 +176,7 @@ fn guides_foresee_by_the_inputs_of_the_next_choice() {
         while p.is_running() {
             let (stream, otherwise) = (p.stream, Prior(p.stream));
             let (mut drawing, mut layers) = (Sight::default(), vec![]);
-            let by = ByProposal { proposal: &proposal, stream, sight: &mut drawing, otherwise };
+            let by = ByProposal { proposal: &proposal, stream, sight: &mut drawing, fallback: otherwise };
             p.advance(&mut machine, &task, 3, Noting { by, guide: &guide, layers: &mut layers }).unwrap();
             if let (Some(before), Some(layer)) = (before.take(), layers.first()) {
                 assert_eq!(before[..2], [1.0, 0.0]);
