@@ -108,7 +108,8 @@ struct Noting<'a> {
 impl Chooser for Noting<'_> {
     fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
         let (stream, otherwise) = (self.particle, Prior(self.particle));
-        let chooser = ByProposal { proposal: self.proposal, stream, sight: \&mut *self.sight, fallback: otherwise };
+        let chooser =
+            ByProposal { proposal: self.proposal, stream, sight: &mut *self.sight, fallback: otherwise };
         let chosen = { chooser }.choose(at, dist, seen)?;
         if let Some(chosen) = &chosen {
             self.drawn.insert((seen.address, repr(&chosen.value)?), inputs(self.sight));
