@@ -1,4 +1,4 @@
-"""The compiled engine: what the door between Python and Rust offers."""
+"""Types of the compiled engine: the binding between Python and Rust."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, final
