@@ -148,7 +148,9 @@ class Table:
         for values in product(*axes.values()):
             varied = dict(zip(axes, values, strict=True))
             labels.append({name: label(value) for name, value in varied.items()})
-            searches.append(grow_search(model, varied.pop("target", target), *args, seed=0, **settings, **varied))
+            searches.append(
+                grow_search(model, varied.pop("target", target), *args, seed=0, **settings, **varied)
+            )
         return cls(searches, labels)
 
     def spec(self, seeds: Any) -> Spec:
