@@ -50,6 +50,11 @@ from niwaki.lang.plain import run_python
 from test_chains import disagreement
 from test_engine import compared, differs, facts, load
 
+#: Strategies of chains, as in the engine.
+STRATEGIES = ("c3", "rerun", "resume", "cache")
+#: Methods of resampling, as in the engine.
+RESAMPLING = ("systematic", "residual", "stratified", "multinomial", "tempered")
+
 #: Programs of `make test`: less than a minute.
 PROGRAMS = 50
 #: Those with memoised functions.
@@ -383,11 +388,6 @@ def m():
 #: A truth value that `or` and `and` write in several places, where a future's argument changes below them.
 SEVERAL = """from dataclasses import dataclass
 from niwaki import model; from niwaki.words import *
-
-#: Strategies of chains, as in the engine.
-STRATEGIES = ("c3", "rerun", "resume", "cache")
-#: Methods of resampling, as in the engine.
-RESAMPLING = ("systematic", "residual", "stratified", "multinomial", "tempered")
 
 LOGS = (0.0, -0.7, 0.6)
 @dataclass(frozen=True)
