@@ -389,7 +389,6 @@ def m():
 SEVERAL = """from dataclasses import dataclass
 from niwaki import model; from niwaki.words import *
 
-
 LOGS = (0.0, -0.7, 0.6)
 @dataclass(frozen=True)
 class Both:

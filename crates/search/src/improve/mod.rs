@@ -20,7 +20,6 @@ mod stored;
 
 pub use rounds::{Kind, Round};
 
-use crate::method::BrokenRule;
 use niwaki_chain::form::Form;
 use niwaki_math::RngCore;
 use niwaki_particles::distinct::Choices;
@@ -109,7 +108,7 @@ impl Improve {
     ];
 
     /// A setting and the rule that it breaks.
-    pub(crate) fn broken_rule(&self) -> Option<BrokenRule> {
+    pub(crate) fn broken_rule(&self) -> Option<(&'static str, &'static str)> {
         (self.diverse.is_some() && self.seconds.is_some()).then_some(("seconds", "seconds-diverse"))
     }
 
