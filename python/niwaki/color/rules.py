@@ -1,17 +1,19 @@
 """Rules about the regions of a drawing; a small TOML file.
 
-background = "sky"                            # without this line: the region at the picture's edge
-lightness = [["wall", "wall-shade", "ink"]]   # each about 15 units of CIELAB lightness above the next
-lighter = [["wall", "roof"]]                  # each at least 12 units above the next
-same-chroma = [["wall", "wall-shade"]]        # shades of one colour: equal a and b
-same-hue = [["roof", "door"]]                 # one hue, strong or pale
+An example of a file:
 
-[muted]                                       # largest distance from grey, CIELAB units
-all = 60                                      # regions without a number of their own
-sky = 30
+    background = "sky"                            # without this line: the region at the picture's edge
+    lightness = [["wall", "wall-shade", "ink"]]   # each about 15 units of CIELAB lightness above the next
+    lighter = [["wall", "roof"]]                  # each at least 12 units above the next
+    same-chroma = [["wall", "wall-shade"]]        # shades of one colour: equal a and b
+    same-hue = [["roof", "door"]]                 # one hue, strong or pale
 
-[held]
-ink = "#1a1a2e"                               # a colour that does not change
+    [muted]                                       # largest distance from grey, CIELAB units
+    all = 60                                      # regions without a number of their own
+    sky = 30
+
+    [held]
+    ink = "#1a1a2e"                               # a colour that does not change
 """
 
 from __future__ import annotations

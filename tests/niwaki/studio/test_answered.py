@@ -276,7 +276,7 @@ async def upload(guard: Any, send: Any) -> None:
 
 
 def test_uploads_are_read_by_a_few_processes_at_a_time(tmp_path, monkeypatch):
-    """Of twelve uploads at once, only as many as the limit are read at a time, and each gets an answer."""
+    """Twelve uploads at once each get an answer, and no more than the limit are read at a time."""
     most = [0, 0]
 
     async def read(*_: Any) -> Any:

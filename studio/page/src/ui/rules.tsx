@@ -82,10 +82,10 @@ export function Rules() {
       </div>
       <ul class="rows">
         {visible
-          .map((rule) => ({ rule, own: reportsOn(rule, reports) }))
-          .sort((a, b) => worst(b.own) - worst(a.own))
-          .map(({ rule, own }) => (
-            <Row key={`${rule.kind} ${rule.regions.join()}`} rule={rule} reports={own} />
+          .map((rule) => ({ rule, rows: reportsOn(rule, reports) }))
+          .sort((a, b) => worst(b.rows) - worst(a.rows))
+          .map(({ rule, rows }) => (
+            <Row key={`${rule.kind} ${rule.regions.join()}`} rule={rule} reports={rows} />
           ))}
       </ul>
     </section>
