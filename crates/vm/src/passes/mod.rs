@@ -4,8 +4,8 @@
 //! 2. [`collections`]: the lists that hold references to their elements;
 //! 3. [`liveness`]: the variables that a loop must pass from one iteration to the next;
 //! 4. `emit`, `expressions`, `sites`, `statements`: one pass over each function. It uses static single
-//! assignment, with merges written by each arm; loops that can suspend are *lifted* into functions of their
-//! own;
+//!    assignment, with merges written by each arm; loops that can suspend are *lifted* into functions of their
+//!    own;
 //! 5. `place`: the registers that are in the node, and the scratch registers, by liveness on bytecode;
 //! 6. `slices`: the instructions that one changed value can reach;
 //! 7. `angles`: the values that are angles, for readers at choices.
