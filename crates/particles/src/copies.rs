@@ -74,18 +74,19 @@ impl Copies {
         let fair = particles.len().div_ceil(threads);
         self.threads.clear();
         for family in self.moves.chunk_by(|a, b| a.0 == b.0) {
-            let (own, mut kept) = (home(family[0].0), family.len());
-            let end = self.threads.len() + kept;
-            self.threads.resize(end, own);
+            let (home_thread, mut staying) = (home(family[0].0), family.len());
+            let end = self.threads.len() + staying;
+            self.threads.resize(end, home_thread);
             while let Some(idle) = (0..threads).min_by_key(|thread| load[*thread]) {
                 let spare = fair.saturating_sub(load[idle]);
-                let given = load[own].saturating_sub(fair).min(spare).min(kept);
-                if given < FEW {
+                let moving = load[home_thread].saturating_sub(fair).min(spare).min(staying);
+                if moving < FEW {
                     break;
                 }
-                let last = end - (family.len() - kept);
-                self.threads[last - given..last].fill(idle);
-                (load[own], load[idle], kept) = (load[own] - given, load[idle] + given, kept - given);
+                let last = end - (family.len() - staying);
+                self.threads[last - moving..last].fill(idle);
+                (load[home_thread], load[idle], staying) =
+                    (load[home_thread] - moving, load[idle] + moving, staying - moving);
             }
         }
         self.give_near(particles);
@@ -162,14 +163,15 @@ impl Copies {
             let mut thread = particle.home % threads;
             let mut parent = next_batch(&mut open[thread], thread);
             open[thread].push(Indexed { index, particle, lineage: None });
-            while let Some(((&(_, to), &own), lineage)) = moves.next_if(|(((from, _), _), _)| *from == index)
+            while let Some(((&(_, to), &assigned), lineage)) =
+                moves.next_if(|(((from, _), _), _)| *from == index)
             {
                 let Some(particle) = all[to].take() else { continue };
                 let mut waits = Some(lineage);
-                if own != thread || open[thread].len() >= size {
+                if assigned != thread || open[thread].len() >= size {
                     // The rest of a large family is copied from its first copy.
                     particle.copy_from(open[thread][parent].particle, lineage, seed);
-                    (thread, parent, waits) = (own, next_batch(&mut open[own], own), None);
+                    (thread, parent, waits) = (assigned, next_batch(&mut open[assigned], assigned), None);
                 }
                 open[thread].push(Indexed { index: to, particle, lineage: waits });
             }

@@ -21,9 +21,9 @@ impl Choices {
         };
         let runs = logs.map(|log| {
             let entries = log.entries();
-            let mut own: Vec<u32> = entries.iter().filter(|e| !e.is_order()).map(&mut number).collect();
-            own.sort_unstable();
-            own
+            let mut choices: Vec<u32> = entries.iter().filter(|e| !e.is_order()).map(&mut number).collect();
+            choices.sort_unstable();
+            choices
         });
         Choices { runs: runs.collect() }
     }

@@ -28,21 +28,21 @@ impl Population<'_> {
         watch: &mut dyn FnMut(Progress) -> bool,
     ) -> Result<Option<(Vec<Run>, bool)>, Failure> {
         let Some(rejuvenation) = &self.settings.rejuvenate else { return Ok(None) };
-        let (Some(wanted), Some(mover)) = (rejuvenation.final_chains, &self.moves.mover) else {
+        let (Some(lengths), Some(mover)) = (rejuvenation.final_chains, &self.moves.mover) else {
             return Ok(None);
         };
         if self.estimate.weights.relative.is_empty() {
             return Ok(None);
         }
         let (seed, moves) = (self.settings.seed, rejuvenation.moves);
-        let mut chains: Vec<(Chain, Vec<Run>)> = Vec::with_capacity(wanted.chains);
-        for (number, index) in self.starts(wanted.chains).into_iter().enumerate() {
+        let mut chains: Vec<(Chain, Vec<Run>)> = Vec::with_capacity(lengths.chains);
+        for (number, index) in self.starts(lengths.chains).into_iter().enumerate() {
             let record = &mut self.swarm.alone()[index].record;
             let seed = Reserved::ChainSeed.stream(seed, u128::from(u64::MAX), number as u64).next_u64();
             let sketches = record.sketches.fork();
             let mut chain = chain_from(record, sketches, &self.task, mover, seed)?;
             chain.restrict(self.powers.now, None);
-            chains.push((chain, Vec::with_capacity(wanted.draws)));
+            chains.push((chain, Vec::with_capacity(lengths.draws)));
         }
         let task = &self.task;
         let next = |(chain, states): &mut (Chain, Vec<Run>)| -> Result<(), Failure> {
@@ -53,7 +53,7 @@ impl Population<'_> {
             Ok(())
         };
         let mut stopped = false;
-        for _ in 0..wanted.draws {
+        for _ in 0..lengths.draws {
             if self.swarm.is_parallel() && chains.len() > 1 {
                 chains.par_iter_mut().map(next).collect::<Result<Vec<()>, _>>()?;
             } else {

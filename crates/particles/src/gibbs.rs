@@ -29,9 +29,9 @@
 //!
 //! Only independent draws have this simple conditional form, so resampling is multinomial whatever the setting is. With
 //! [`Resampling::Tempered`](niwaki_run::resampling::Resampling::Tempered) it is multinomial by tempered weights, and all copies, the held run
-//! too, carry the rest of their weights. Why this is exact: with `r` the probabilities of the draws, `q` the densities of
-//! the choices and `g` the steps of the score, all particles of SMC together have the density `psi`, the weight at the end
-//! of the path of particle `k` is `w_k`, and the chain's target on all particles and `k` is their product:
+//! too, carry the rest of their weights. This is exact. Let `r` be the probabilities of the draws, `q` the densities of
+//! the choices and `g` the steps of the score. All particles of SMC together have the density `psi`. The weight at the end
+//! of the path of particle `k` is `w_k`. The chain's target on all particles and `k` is their product:
 //!
 //! ```text
 //! psi = product of q and r over all particles,   w_k = product over the path of p g / (q N r),   target = psi w_k
@@ -137,8 +137,8 @@ pub fn particle_gibbs(
         }
     };
     for sweep in 1..=sweeps {
-        let own = Settings { seed: sweep_seed(settings.seed, sweep), ..settings.clone() };
-        let Some(state) = conditional(task, &own, ancestors, &now, &mut chain, watch)? else {
+        let sweep_settings = Settings { seed: sweep_seed(settings.seed, sweep), ..settings.clone() };
+        let Some(state) = conditional(task, &sweep_settings, ancestors, &now, &mut chain, watch)? else {
             chain.interrupted = true;
             break;
         };
@@ -204,11 +204,11 @@ fn conditional(
     let population = Population::start(task, settings, false)?;
     let task = population.task.clone();
     let (machine, segments) = (task.machine(), run.segments());
-    let mut own = Conditional { population, task: &task, machine, segments, ancestors, chain };
-    if !sweep(&mut own, Some(0), &mut |_, now| watch(now))? {
+    let mut conditional = Conditional { population, task: &task, machine, segments, ancestors, chain };
+    if !sweep(&mut conditional, Some(0), &mut |_, now| watch(now))? {
         return Ok(None);
     }
-    let mut population = own.population;
+    let mut population = conditional.population;
     population.finish();
     let index = draw_index(&population.estimate.weights, settings.seed, 0);
     Ok(Some(Run { log_weight: 0.0, ..run_of(population.settled().swap_remove(index)) }))

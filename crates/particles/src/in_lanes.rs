@@ -199,16 +199,16 @@ impl Choices {
     /// Drops the rows that no particle descends from.
     fn drop_rows(&mut self) {
         self.stored = 0;
-        let mut wanted: Option<Vec<u32>> = None;
+        let mut used_rows: Option<Vec<u32>> = None;
         for segment in self.segments.iter_mut().rev() {
-            if let Some(rows) = &wanted {
+            if let Some(rows) = &used_rows {
                 segment.from = rows.iter().map(|row| segment.from[*row as usize]).collect();
                 segment.choices.iter_mut().for_each(|(_, column)| *column = column.picked(rows));
             }
             self.stored += segment.choices.len() * segment.from.len();
-            wanted = Some(only_used(&mut segment.from));
+            used_rows = Some(only_used(&mut segment.from));
         }
-        if let Some(rows) = wanted {
+        if let Some(rows) = used_rows {
             self.before = rows.iter().map(|row| std::mem::take(&mut self.before[*row as usize])).collect();
         }
         self.left = self.stored;
@@ -283,7 +283,7 @@ fn add(sum: &mut f64, log: f64) -> bool {
 /// Draws from tables, by the first uniform of each stream.
 fn draw_from(
     tables: &Tables,
-    which: &[u32],
+    table_of_lane: &[u32],
     blocks: &FirstBlocks,
     log_prior: &mut [f64],
 ) -> Result<Vec<i64>, Divergence> {
@@ -294,10 +294,10 @@ fn draw_from(
         exact &= sums.next().is_some_and(|sum| add(sum, log));
     };
     let uniforms = blocks.uniforms();
-    if which.is_empty() {
+    if table_of_lane.is_empty() {
         tables.draw(uniforms.map(|u| (0, u)), &mut take);
     } else {
-        tables.draw(which.iter().map(|row| *row as usize).zip(uniforms), &mut take);
+        tables.draw(table_of_lane.iter().map(|row| *row as usize).zip(uniforms), &mut take);
     }
     if exact { Ok(drawn) } else { Err(Divergence) }
 }
@@ -317,11 +317,11 @@ impl LaneAnswers for Drawing<'_> {
     fn choices(&mut self, at: &At<'_, f64>, dists: Dists<'_>) -> Result<Column, Divergence> {
         let (address, lanes) = (at.address(), self.streams.len());
         self.blocks.make(self.streams, address);
-        if let Some((all, which)) = dists.shared()
+        if let Some((all, table_of_lane)) = dists.shared()
             && all.len() * REPEATS <= lanes
             && let Some(tables) = Tables::of(all)
         {
-            let column = draw_from(&tables, which, self.blocks, self.log_prior)?;
+            let column = draw_from(&tables, table_of_lane, self.blocks, self.log_prior)?;
             return Ok(self.note(address, Column::Ints(Arc::new(column))));
         }
         let (streams, blocks, sums) = (self.streams, &*self.blocks, &mut *self.log_prior);

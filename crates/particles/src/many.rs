@@ -1,9 +1,9 @@
 //! Independent populations as a single search, in parallel or until a time limit.
 //!
-//! Population `m` of `N_m` particles estimates the normalising constant by `Z_m` without bias, so the searches
-//! together estimate it by `Z = sum N_m Z_m / sum N_m`, and a particle of weight `w` in its population weighs
-//! `N_m Z_m w / sum w` in the whole (each population is one draw of importance sampling on the space of whole
-//! populations; Whiteley, Lee & Heine 2016, section 3). One that died counts with `Z_m = 0`. Absolute weights have no
+//! Population `m` of `N_m` particles estimates the normalising constant by `Z_m` without bias. The searches
+//! together estimate it by `Z = sum N_m Z_m / sum N_m`. A particle of weight `w` in its population weighs
+//! `N_m Z_m w / sum w` in the whole. (Each population is one draw of importance sampling on the space of whole
+//! populations; Whiteley, Lee & Heine 2016, section 3.) A population that died counts with `Z_m = 0`. Absolute weights have no
 //! such constant; there a particle weighs what it weighs in its population.
 //!
 //! The sizes are the plan: with the seed it gives the same result again, however many threads there are and however
@@ -85,13 +85,13 @@ pub fn populations(
     let task = &task.shared_by(plan.len().min(AT_ONCE));
     let (results, stopped) = side_by_side(plan.len(), watch, |number, watch| {
         let (particles, seed) = (plan[number], population_seed(settings.seed, number));
-        let own = Settings { particles, seed, ..settings.clone() };
-        run(task, &own, is_shared(plan.len()), watch)
+        let population_settings = Settings { particles, seed, ..settings.clone() };
+        run(task, &population_settings, is_shared(plan.len()), watch)
     });
     combine(plan, results, stopped)
 }
 
-/// Of more populations than this, not all are in memory at once: so many share it.
+/// The largest number of populations that are in memory at once.
 pub const AT_ONCE: usize = 64;
 
 /// Whether so many searches share the threads: where there are fewer, they run one by one, each on all threads.
@@ -105,11 +105,11 @@ fn is_shared(count: usize) -> bool {
 pub fn side_by_side<T: Send>(
     count: usize,
     watch: &mut Watch<'_>,
-    one: impl Fn(usize, &mut dyn FnMut(Progress) -> bool) -> T + Sync,
+    search: impl Fn(usize, &mut dyn FnMut(Progress) -> bool) -> T + Sync,
 ) -> (Vec<T>, bool) {
     let (watch, stopped) = (Mutex::new(watch), AtomicBool::new(false));
-    let own = |number| {
-        one(number, &mut |progress| {
+    let watched_search = |number| {
+        search(number, &mut |progress| {
             // A thread does not wait here while another one calls `watch`.
             if let Ok(mut watch) = watch.try_lock()
                 && !watch(progress)
@@ -120,9 +120,9 @@ pub fn side_by_side<T: Send>(
         })
     };
     let results = if is_shared(count) {
-        (0..count).into_par_iter().map(own).collect()
+        (0..count).into_par_iter().map(watched_search).collect()
     } else {
-        (0..count).map(own).collect()
+        (0..count).map(watched_search).collect()
     };
     (results, stopped.into_inner())
 }
@@ -152,9 +152,9 @@ pub(super) fn by_clock(
 ) -> std::result::Result<Result, Failure> {
     let mut stopped = false;
     // Runs a population that stops at the first barrier after `end`; also whether the whole search was stopped.
-    let mut one = |particles: usize, seed: u64, end: Duration| {
-        let own = Settings { particles, seed, ..settings.clone() };
-        let result = run(task, &own, false, &mut |progress| {
+    let mut run_population = |particles: usize, seed: u64, end: Duration| {
+        let population_settings = Settings { particles, seed, ..settings.clone() };
+        let result = run(task, &population_settings, false, &mut |progress| {
             stopped |= !watch(progress);
             !stopped && clock() <= end
         });
@@ -166,7 +166,7 @@ pub(super) fn by_clock(
     let cost = loop {
         let start = clock();
         let seed = Reserved::Pilot.stream(settings.seed, number, 0).next_u64();
-        match one(size, seed, limit) {
+        match run_population(size, seed, limit) {
             (Ok(_) | Err(Failure::Impossible { .. }), false) => {}
             (result, _) => return result.map(without_evidence),
         }
@@ -187,7 +187,7 @@ pub(super) fn by_clock(
     loop {
         let is_first = plan.is_empty();
         let end = if is_first { Duration::MAX } else { time };
-        let (population, stopped) = one(size, population_seed(settings.seed, plan.len()), end);
+        let (population, stopped) = run_population(size, population_seed(settings.seed, plan.len()), end);
         let is_late = clock() > time;
         if is_late && !is_first && !stopped {
             break;
@@ -232,8 +232,8 @@ impl Share {
 pub fn united(lived: &[Share], total: usize) -> (Option<f64>, Vec<f64>) {
     let part = |share: &Share| share.log_normaliser.map(|log| log + (share.size as f64 / total as f64).ln());
     let all = lived.iter().map(part).collect::<Option<Vec<f64>>>().map(|logs| log_sum_exp(logs.into_iter()));
-    let shift = |one: &Share| match (one.log_normaliser, all) {
-        (Some(own), Some(all)) => own - all + (one.size as f64).ln() - one.log_sum,
+    let shift = |share: &Share| match (share.log_normaliser, all) {
+        (Some(log_normaliser), Some(all)) => log_normaliser - all + (share.size as f64).ln() - share.log_sum,
         _ => 0.0,
     };
     (all, lived.iter().map(shift).collect())
@@ -248,8 +248,8 @@ fn combine(
     let mut lived: Vec<(usize, Result)> = Vec::new();
     let mut died = None;
     let mut deaths = 0;
-    for (one, size) in results.into_iter().zip(plan) {
-        match one {
+    for (outcome, size) in results.into_iter().zip(plan) {
+        match outcome {
             Ok(result) => lived.push((*size, result)),
             // The first death is reported where all died.
             Err(failure) if failure.is_impossible() => {
@@ -263,7 +263,7 @@ fn combine(
     if plan.len() == 1 || lived.is_empty() {
         return lived.pop().map(|(_, result)| result).ok_or_else(|| died.unwrap_or_else(Failure::no_start));
     }
-    let shares: Vec<Share> = lived.iter().map(|(size, one)| Share::of(*size, one)).collect();
+    let shares: Vec<Share> = lived.iter().map(|(size, result)| Share::of(*size, result)).collect();
     let (log_normaliser, shifts) = united(&shares, total);
     let mut whole = Result {
         log_normaliser,
@@ -275,15 +275,15 @@ fn combine(
         powers: std::mem::take(&mut lived[0].1.powers),
         ..Result::default()
     };
-    for ((_, mut one), shift) in lived.into_iter().zip(shifts) {
-        one.particles.iter_mut().for_each(|p| p.log_weight += shift);
-        whole.particles.append(&mut one.particles);
-        whole.barriers = whole.barriers.max(one.barriers);
-        whole.steps += one.steps;
-        whole.resampled += one.resampled;
-        whole.ancestors += one.ancestors;
-        whole.moved += one.moved;
-        whole.losses.add(one.losses);
+    for ((_, mut population), shift) in lived.into_iter().zip(shifts) {
+        population.particles.iter_mut().for_each(|p| p.log_weight += shift);
+        whole.particles.append(&mut population.particles);
+        whole.barriers = whole.barriers.max(population.barriers);
+        whole.steps += population.steps;
+        whole.resampled += population.resampled;
+        whole.ancestors += population.ancestors;
+        whole.moved += population.moved;
+        whole.losses.add(population.losses);
     }
     Ok(whole)
 }

@@ -62,7 +62,7 @@ pub(super) fn move_running(
         task: round.task,
         order: &round.settings.order,
         origins: !mover.choosy.is_empty()
-            || round.settings.proposal.as_ref().is_some_and(|own| own.needs_origins()),
+            || round.settings.proposal.as_ref().is_some_and(|proposal| proposal.needs_origins()),
         weigh: &weigh,
     };
     let run = PartialRun::of(with, machine, &p.record.log.entries(), round.barriers, &mut || 0.0)?;
@@ -108,9 +108,9 @@ impl Target for Moving<'_, '_> {
         }
         let mut left = below(&mut self.rng, total);
         let picked = self.now.choices().find(|choice| {
-            let (own, here) = (self.weight(choice), left);
-            left = left.saturating_sub(own);
-            here < own
+            let (weight, here) = (self.weight(choice), left);
+            left = left.saturating_sub(weight);
+            here < weight
         });
         let (picked, numbers) = (picked.map(|choice| choice.address), &self.round.mover.numbers);
         let values = self.stream(1);
@@ -133,11 +133,11 @@ impl Target for Moving<'_, '_> {
         let (size, values) = (block.size(), self.stream(1));
         let (weight, mover) = (self.weight, self.round.mover);
         let propose = |_: &At<'_, f64>, c: &Choice, _: &Dist| {
-            let mut own = values.at(c.address);
-            if weight.is_some_and(|n| c.weights[n] == 0) || own.uniform() >= block.share() {
+            let mut stream = values.at(c.address);
+            if weight.is_some_and(|n| c.weights[n] == 0) || stream.uniform() >= block.share() {
                 return Ok(None);
             }
-            Ok(block::step(c.family, &c.value, size * mover.spread(c.site), &mut own))
+            Ok(block::step(c.family, &c.value, size * mover.spread(c.site), &mut stream))
         };
         let next = self.now.again(self.with, self.machine, propose, self.stream(0))?;
         self.decide(next, 0.0)
@@ -146,8 +146,8 @@ impl Target for Moving<'_, '_> {
 
 impl Moving<'_, '_> {
     /// New choices have the first visit of a move, new values of old ones the second.
-    fn stream(&self, which: u64) -> StreamKey {
-        self.particle.stream.revisited(self.visit + which)
+    fn stream(&self, purpose: u64) -> StreamKey {
+        self.particle.stream.revisited(self.visit + purpose)
     }
 
     fn weight(&self, choice: &Choice) -> u64 {
@@ -165,11 +165,11 @@ impl Moving<'_, '_> {
         let Some((next, densities)) = next else { return Ok(()) };
         let record = &mut self.particle.record;
         let (before, mut undone) = (record.log_sketches.clone(), None);
-        let (gone, come) = next.exchanged(&self.now);
-        if !record.sketches.is_empty() && gone.len() + come.len() > 0 {
+        let (removed, added) = next.exchanged(&self.now);
+        if !record.sketches.is_empty() && removed.len() + added.len() > 0 {
             record.sketches.expect_removals();
             undone = Some(record.sketches.fork());
-            let kept = record.sketches.exchange(gone.iter().copied(), come.iter().copied());
+            let kept = record.sketches.exchange(removed.iter().copied(), added.iter().copied());
             debug_assert!(kept, "the sketches and the partial run hold the same scene");
             record.log_sketches = score_of(&record.sketches)?;
         }

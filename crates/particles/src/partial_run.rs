@@ -3,8 +3,9 @@
 //!
 //! Other values must not change the *skeleton*: which futures could run at each pick, the address of each
 //! barrier, and where each future is suspended at the end. Under one skeleton the order policy gives equal order choices
-//! equal probability (one over the number of futures that can run, or what a learned policy says, pick by pick), so it
-//! cancels in a ratio. A learned policy whose weights of the futures at a pick differ to the bit has another skeleton there.
+//! equal probability: one over the number of futures that can run, or the probability of a learned policy, pick by pick.
+//! So the probability cancels in a ratio. A learned policy whose weights of the futures at a pick differ to the bit has
+//! another skeleton there.
 
 use niwaki_geom::{Primitive, Shape};
 use niwaki_math::{Dist, Family, StreamKey, Total, grid};
@@ -196,14 +197,14 @@ impl PartialRun {
                 _ => None,
             })
         }
-        let (mut gone, mut come) = (vec![], vec![]);
+        let (mut removed, mut added) = (vec![], vec![]);
         for ((old, _), (new, changed)) in met(before).zip(met(self)) {
             if changed || old.is_some() != new.is_some() {
-                gone.extend(old);
-                come.extend(new);
+                removed.extend(old);
+                added.extend(new);
             }
         }
-        (gone, come)
+        (removed, added)
     }
 
     /// The choices and order choices as a log.
@@ -212,7 +213,7 @@ impl PartialRun {
         for step in &self.steps {
             match step {
                 Step::Chose(choice) => log.push(choice.address, choice.value.clone()),
-                Step::Ran { path, pick: Some((which, _)) } => log.push_order(*path, *which),
+                Step::Ran { path, pick: Some((pick, _)) } => log.push_order(*path, *pick),
                 _ => {}
             }
         }
@@ -277,17 +278,17 @@ impl<C> Recorder<'_, C> {
             let among = runnable.iter().fold(runnable.len() as u128, hash);
             let logs = past.logs(state).unwrap_or_default();
             let among = logs.iter().fold(among, |hash, log| join(hash, u128::from(log.to_bits())));
-            let which = match self.next_mark() {
+            let place = match self.next_mark() {
                 None => pick(state, past),
-                Some(Some(Step::Ran { pick: Some((which, then)), .. })) if *then == among => *which,
+                Some(Some(Step::Ran { pick: Some((place, then)), .. })) if *then == among => *place,
                 Some(_) => {
                     self.lost = true;
                     return None;
                 }
             };
-            picked = Some((which, among));
+            picked = Some((place, among));
         }
-        let place = picked.map_or(0, |(which, _)| which);
+        let place = picked.map_or(0, |(place, _)| place);
         if let Some(future) = runnable.get(place) {
             self.steps.push(Step::Ran { path: state.path_of(future), pick: picked });
         }
@@ -303,9 +304,9 @@ impl<C> Recorder<'_, C> {
                 None
             }
         };
-        let same = matches!((&old, shapes), (Some(old), Some(new)) if old.shapes() == new);
-        let primitive = if same { old } else { shapes.map(Primitive::new) };
-        self.steps.push(Step::Met { address, primitive, changed: !same && shapes.is_some() });
+        let is_unchanged = matches!((&old, shapes), (Some(old), Some(new)) if old.shapes() == new);
+        let primitive = if is_unchanged { old } else { shapes.map(Primitive::new) };
+        self.steps.push(Step::Met { address, primitive, changed: !is_unchanged && shapes.is_some() });
         Answer::Pause
     }
 }
@@ -414,15 +415,15 @@ pub(crate) fn follow(
     let mut follow = Follow { steps: segment.iter(), proposal, sight: Sight::default(), lost: false };
     let mut log_order = 0.0;
     let pick = |follow: &mut &mut Follow<'_>, Turn { state, past, .. }: Turn<'_>| {
-        let which = match follow.steps.next() {
+        let place_of_future = match follow.steps.next() {
             Some(Step::Ran { path, .. }) => place(state, *path),
             _ => None,
         };
-        follow.lost |= which.is_none();
+        follow.lost |= place_of_future.is_none();
         if state.runnable().len() > 1 {
-            log_order += past.log_probability(state, which?);
+            log_order += past.log_probability(state, place_of_future?);
         }
-        which
+        place_of_future
     };
     let paused = particle.advance_by(machine, task, pick, &mut follow)?;
     if follow.lost {

@@ -222,8 +222,9 @@ impl Particles for Population<'_> {
         let weights = tempered.as_ref().map_or(&self.estimate.weights, |tempered| &tempered.weights);
         let copies = method.copies_with(held, &weights.relative, &mut random);
         let log_mean = self.estimate.weights.log_mean;
-        self.swarm
-            .reweigh(|log_weight| tempered.as_ref().map_or(0.0, |own| own.carried(log_weight, log_mean)));
+        self.swarm.reweigh(|log_weight| {
+            tempered.as_ref().map_or(0.0, |weights| weights.carried(log_weight, log_mean))
+        });
         self.estimate.log_normaliser += log_mean;
         self.counts.resampled += 1;
         self.swarm.copy(Copies::plan(&copies, &mut self.ancestry), seed);

@@ -9,8 +9,9 @@
 //!
 //! The moves of a particle must not depend on the other particles. A kernel that is the same for every population
 //! leaves each expectation as it is. A kernel that is left out because all others have ended does not.
-//! So a particle that has ended is moved at the barrier at which that is seen, among runs with as many barriers as it
-//! has, and not again until the end, when all are moved once without bound. For the same reason the evidence is unbiased
+//! So a particle that has ended is moved at the first barrier after its end, among runs with as many barriers as it
+//! has. It is not moved again until the end of the search, when all particles are moved once without bound.
+//! For the same reason the evidence is unbiased
 //! for moves at fixed barriers, and consistent for moves after a resampling that is itself decided by the weights.
 
 use crate::moves::{move_ended, move_running};
@@ -31,9 +32,9 @@ const FIRST_RUNS: u64 = 4;
 /// Counts of moves: of particles that still ran, and of those that had ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MoveCounts {
-    /// Of particles that still ran.
+    /// Moves of running particles.
     pub running: Count,
-    /// Of particles that had ended.
+    /// Moves of ended particles.
     pub ended: Count,
 }
 
@@ -71,7 +72,7 @@ pub(super) struct Round<'a> {
     pub task: &'a Task,
     pub settings: &'a Settings,
     pub mover: &'a Mover,
-    /// Which leaf proposes, move by move.
+    /// The leaf that proposes, move by move.
     pub schedule: Vec<usize>,
     /// The power of the score in the law that the particles follow.
     pub power: f64,

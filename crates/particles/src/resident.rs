@@ -25,7 +25,7 @@ pub(super) fn values_to_recount(before: usize) -> usize {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Growth {
     /// Bytes of activations: less, or more.
-    own: isize,
+    activations: isize,
     /// Bytes of values made.
     values: usize,
     /// Bytes of all that grew.
@@ -33,26 +33,26 @@ pub(super) struct Growth {
 }
 
 impl Growth {
-    /// That of so many particles alike: bytes of activations, and of values made.
-    pub fn of(particles: usize, own: isize, values: usize) -> Growth {
-        let up = particles * (values + own.max(0) as usize);
-        Growth { own: own * particles as isize, values: values * particles, up }
+    /// The growth of a number of equal particles: bytes of activations, and of new values.
+    pub fn of(particles: usize, activations: isize, values: usize) -> Growth {
+        let up = particles * (values + activations.max(0) as usize);
+        Growth { activations: activations * particles as isize, values: values * particles, up }
     }
 
     /// Adds that of other particles.
     pub fn add(&mut self, other: Growth) {
-        self.own += other.own;
+        self.activations += other.activations;
         self.values += other.values;
         self.up += other.up;
     }
 }
 
-/// What a population takes.
+/// The memory that a population takes.
 #[derive(Default)]
 pub(super) struct Resident {
-    own: isize,
+    activations: isize,
     values: usize,
-    /// Of `values`, what was made since the last census.
+    /// The part of `values` that is newer than the last census.
     fresh: usize,
 }
 
@@ -66,7 +66,7 @@ impl Resident {
     /// With that growth.
     fn with(&self, growth: Growth) -> Resident {
         Resident {
-            own: self.own + growth.own,
+            activations: self.activations + growth.activations,
             values: self.values.saturating_add(growth.values),
             fresh: self.fresh.saturating_add(growth.values),
         }
@@ -88,7 +88,7 @@ impl Resident {
     }
 
     fn total(&self) -> usize {
-        usize::try_from(self.own).unwrap_or(0).saturating_add(self.values)
+        usize::try_from(self.activations).unwrap_or(0).saturating_add(self.values)
     }
 
     /// The particles have run to a barrier and grown. A census is made where it may matter.
@@ -139,10 +139,10 @@ pub(super) fn counted(
     if particle.state.value_bytes() > values_to_recount(before) {
         machine.recount(&mut particle.state);
     }
-    let own = particle.state.own_bytes() as isize;
-    let grown = own - std::mem::replace(&mut particle.bytes, own);
+    let activations = particle.state.own_bytes() as isize;
+    let grown = activations - std::mem::replace(&mut particle.bytes, activations);
     let values = particle.state.value_bytes().saturating_sub(before);
-    growth.own += grown;
+    growth.activations += grown;
     growth.values += values;
     growth.up += values + grown.max(0) as usize;
     Ok(())

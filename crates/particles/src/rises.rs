@@ -1,4 +1,4 @@
-//! What short searches from paused particles gain: the lessons of a forecast ([`look_ahead`](niwaki_propose::look_ahead)).
+//! Gains of short searches from paused particles: the training data of a forecast ([`look_ahead`](niwaki_propose::look_ahead)).
 //!
 //! A population is paused at each barrier. Of its running particles there one is drawn, and of these a few are kept, such that
 //! each barrier is as likely (Vitter 1985, algorithm R). From each of them a population of its own grows to the end. If
@@ -68,8 +68,8 @@ pub fn rise(
     number: usize,
 ) -> Result<f64, Failure> {
     let seed = Reserved::Paused.stream(settings.seed, number as u128, 1).next_u64();
-    let own = Settings { particles, seed, ..settings.clone() };
-    let mut population = Population::go_on(task, &own, from)?;
+    let population_settings = Settings { particles, seed, ..settings.clone() };
+    let mut population = Population::go_on(task, &population_settings, from)?;
     match grow(&mut population, &mut |_, _| true) {
         Ok(_) => Ok(population.estimate.log_normaliser - from.record.log_score()),
         Err(failure) if failure.is_impossible() => Ok(f64::NEG_INFINITY),

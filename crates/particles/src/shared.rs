@@ -11,15 +11,15 @@ use std::sync::{Mutex, PoisonError};
 pub(super) fn share<T: Send, W: FnMut(T)>(lists: Vec<VecDeque<T>>, worker: impl Fn(usize) -> W + Sync) {
     let lists: Vec<Mutex<VecDeque<T>>> = lists.into_iter().map(Mutex::new).collect();
     let work = || {
-        let own = rayon::current_thread_index().unwrap_or(0) % lists.len();
-        let mut next = next(&lists, own);
+        let thread = rayon::current_thread_index().unwrap_or(0) % lists.len();
+        let mut next = next(&lists, thread);
         if next.is_none() {
             return;
         }
-        let mut work = worker(own);
+        let mut work = worker(thread);
         while let Some(item) = next {
             work(item);
-            next = self::next(&lists, own);
+            next = self::next(&lists, thread);
         }
     };
     rayon::scope(|scope| {
@@ -29,10 +29,10 @@ pub(super) fn share<T: Send, W: FnMut(T)>(lists: Vec<VecDeque<T>>, worker: impl 
 }
 
 /// The first item of the thread's list, or the last of another list.
-fn next<T>(lists: &[Mutex<VecDeque<T>>], own: usize) -> Option<T> {
+fn next<T>(lists: &[Mutex<VecDeque<T>>], thread: usize) -> Option<T> {
     // One lock at a time, so that two threads with each other's lists do not wait for each other.
     (0..lists.len()).find_map(|more| {
-        let list = &lists[(own + more) % lists.len()];
+        let list = &lists[(thread + more) % lists.len()];
         let mut list = list.lock().unwrap_or_else(PoisonError::into_inner);
         if more == 0 { list.pop_front() } else { list.pop_back() }
     })

@@ -18,7 +18,7 @@ pub struct Result {
     /// Estimate of the log of the final law's normalising constant, the scores raised to the declared power,
     /// nats. `None` for absolute weights, which have none, and where the search was stopped.
     pub log_normaliser: Option<f64>,
-    /// The same where it is the model's evidence: at power 1. Unbiased (as a number, not its log), unless the
+    /// The log of the model's evidence: `log_normaliser` at power 1, else `None`. The evidence (not its log) is unbiased, unless the
     /// powers were adapted, or particles moved after resamplings that the weights decided: then
     /// consistent.
     pub log_evidence: Option<f64>,

@@ -51,12 +51,12 @@ impl Swarm {
         // Between two barriers a particle may grow to its share of the memory, or to a small part of all. What all have
         // together is counted at barriers.
         let bytes = (task.limits.bytes / n).max(task.limits.bytes / PARTS);
-        let own = Task { limits: Limits { bytes, ..task.limits }, ..task.clone() };
+        let limited = Task { limits: Limits { bytes, ..task.limits }, ..task.clone() };
         let tasks = if serial || n <= BATCH || threads == 1 {
-            vec![own]
+            vec![limited]
         } else {
             let apart = task.program.copies_for_threads(threads).into_iter();
-            apart.map(|program| Task { program: Arc::new(program), ..own.clone() }).collect()
+            apart.map(|program| Task { program: Arc::new(program), ..limited.clone() }).collect()
         };
         let (rest, copies, resident) = (Rest::default(), Copies::default(), Resident::default());
         Swarm { particles, lanes: None, rest, copies, resident, tasks }
@@ -108,23 +108,23 @@ impl Swarm {
         let (seed, limit, tasks) = (settings.seed, task.limits.bytes, &self.tasks);
         let (room, failed, met) = (self.resident.room(limit), AtomicUsize::new(usize::MAX), Mutex::default());
         let step = Step { settings, held, limit, room, failed, met };
-        if let [own] = &tasks[..] {
+        if let [thread_task] = &tasks[..] {
             self.copies.make(&mut self.particles, seed);
             let particles = self.particles.iter_mut().enumerate();
-            step.run(own, &mut own.machine(), &mut Sight::default(), particles);
+            step.run(thread_task, &mut thread_task.machine(), &mut Sight::default(), particles);
         } else {
             let size = (self.particles.len() / (TASKS * tasks.len())).clamp(1, BATCH);
             let batches = self.copies.batches(&mut self.particles, seed, size, tasks.len());
             share(batches, |thread| {
-                let (step, own) = (&step, &tasks[thread]);
-                let (mut machine, mut sight) = (own.machine(), Sight::default());
+                let (step, thread_task) = (&step, &tasks[thread]);
+                let (mut machine, mut sight) = (thread_task.machine(), Sight::default());
                 move |mut batch: Vec<Indexed<'_>>| {
                     copy(&mut batch, seed);
                     let particles = batch.into_iter().map(|Indexed { index, particle, .. }| {
                         particle.home = thread;
                         (index, particle)
                     });
-                    step.run(own, &mut machine, &mut sight, particles);
+                    step.run(thread_task, &mut machine, &mut sight, particles);
                 }
             });
             self.copies.clear();
@@ -265,10 +265,10 @@ impl Step<'_> {
             }
             let run =
                 |p: &mut Particle, machine: &mut Machine<'_>| advance(p, machine, task, self.settings, sight);
-            if let Err(own) = counted(particle, machine, self.limit, &mut growth, run)
+            if let Err(failure) = counted(particle, machine, self.limit, &mut growth, run)
                 && self.failed.fetch_min(index, Ordering::Relaxed) > index
             {
-                fault = Some((index, own));
+                fault = Some((index, failure));
             }
         }
         let mut met = self.met.lock().unwrap_or_else(PoisonError::into_inner);
@@ -284,7 +284,7 @@ impl Step<'_> {
     fn growth(self, task: &Task) -> Result<Growth, Failure> {
         match self.met.into_inner().unwrap_or_else(PoisonError::into_inner) {
             (growth, _) if growth.up > self.room => Err(too_large(task)),
-            (_, Some((_, own))) => Err(own),
+            (_, Some((_, failure))) => Err(failure),
             (growth, None) => Ok(growth),
         }
     }

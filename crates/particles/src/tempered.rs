@@ -44,7 +44,7 @@ pub(super) struct Tempered {
 }
 
 impl Tempered {
-    /// Of log weights, at least one of them possible; `None` where the power is one.
+    /// Temper log weights, of which at least one is possible; `None` where the power is one.
     pub fn of(logs: impl Iterator<Item = f64> + Clone) -> Option<Tempered> {
         let possible = logs.clone().filter(|w| *w > f64::NEG_INFINITY);
         let enough = SHARE * possible.clone().count() as f64;
@@ -88,8 +88,9 @@ mod tests {
         for spread in [0.1, 1.0, 1e3, 1e6] {
             for shift in [0.0, -1e5, 1e5] {
                 for dead in [0, 60] {
-                    let own = ramp.iter().map(|w| spread * w + shift);
-                    let logs: Vec<f64> = own.chain([f64::NEG_INFINITY; 60].into_iter().take(dead)).collect();
+                    let spread_logs = ramp.iter().map(|w| spread * w + shift);
+                    let logs: Vec<f64> =
+                        spread_logs.chain([f64::NEG_INFINITY; 60].into_iter().take(dead)).collect();
                     let effective = tempered(&logs).unwrap().weights.effective;
                     assert!((effective - 20.0).abs() < 0.01, "{spread}, {shift}, {dead}: {effective}");
                 }
@@ -113,11 +114,11 @@ mod tests {
         let logs = [0.0, -4.0, -9.0, f64::NEG_INFINITY, -5.0];
         let mut weights = Normalised::default();
         weights.read(logs.into_iter());
-        let found = tempered(&logs).unwrap();
-        let total: f64 = found.weights.relative.iter().sum();
+        let resampling = tempered(&logs).unwrap();
+        let total: f64 = resampling.weights.relative.iter().sum();
         for (i, log) in logs.into_iter().enumerate() {
-            let copies = 5.0 * found.weights.relative[i] / total;
-            let carried = copies * found.carried(log, weights.log_mean).exp();
+            let copies = 5.0 * resampling.weights.relative[i] / total;
+            let carried = copies * resampling.carried(log, weights.log_mean).exp();
             assert!((carried - (log - weights.log_mean).exp()).abs() < 1e-12, "{i}: {carried}");
         }
     }

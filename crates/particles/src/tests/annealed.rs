@@ -35,11 +35,11 @@ fn adapted_powers_end_at_the_declared_one() {
             anneal: Anneal::Adaptive(0.9),
             ..settings(Order::Stochastic, Resampling::Systematic)
         };
-        let found = smc(&task, &adaptive, &mut |_| true).unwrap();
-        let log = found.log_evidence.unwrap();
+        let result = smc(&task, &adaptive, &mut |_| true).unwrap();
+        let log = result.log_evidence.unwrap();
         assert!((log - exact).abs() < 0.02, "{name}: {log} for {exact}");
-        let powers = &found.powers;
-        assert_eq!(powers.len(), found.barriers);
+        let powers = &result.powers;
+        assert_eq!(powers.len(), result.barriers);
         assert!(
             powers.is_sorted() && powers[0] >= 0.0 && *powers.last().unwrap() <= 1.0,
             "{name}: {powers:?}"
@@ -60,13 +60,13 @@ fn adapted_powers_do_not_depend_on_a_constant_of_the_score() {
             (set $x (sample (dist discrete_uniform 0 9)))
             (do (factor (sub {constant:?} (mul 2.0 $x)))))) (return 0)) (entry "m"))"#
         );
-        let own = Settings {
+        let settings = Settings {
             particles: 200,
             anneal: Anneal::Adaptive(0.5),
             when: When::EffectiveBelow(0.0),
             ..Settings::default()
         };
-        smc(&task(&text), &own, &mut |_| true).unwrap().powers
+        smc(&task(&text), &settings, &mut |_| true).unwrap().powers
     };
     let plain = powers(0.0);
     assert!(plain[0] < 1.0 && plain[3] > plain[0], "{plain:?}");
@@ -89,11 +89,11 @@ fn a_declared_power_is_that_of_the_final_law() {
     for anneal in [Anneal::Constant, Anneal::Schedule([0.5, 3.0].as_slice().into())] {
         let (mut sum, mut squares, n) = (0.0, 0.0, 4000.0);
         for seed in 0..4000 {
-            let own =
+            let settings =
                 Settings { seed, power: 2.0, anneal: anneal.clone(), particles: 8, ..Settings::default() };
-            let found = smc(&task(hot), &own, &mut |_| true).unwrap();
-            assert!(found.log_evidence.is_none());
-            let z = (found.log_normaliser.unwrap() - exact).exp();
+            let result = smc(&task(hot), &settings, &mut |_| true).unwrap();
+            assert!(result.log_evidence.is_none());
+            let z = (result.log_normaliser.unwrap() - exact).exp();
             (sum, squares) = (sum + z, squares + z * z);
         }
         let mean: f64 = sum / n;

@@ -28,14 +28,14 @@ fn particle_gibbs_keeps_the_posterior() {
 #[test]
 fn it_keeps_it_when_resampling_is_adaptive_and_the_power_changes() {
     for (name, text) in PROGRAMS {
-        let own = Settings {
+        let settings = Settings {
             when: When::EffectiveBelow(0.7),
             anneal: Anneal::Schedule([0.4, 2.0, 0.8].as_slice().into()),
             ..small(4, Order::Stochastic)
         };
         let task = task(text);
         let starts = exact_draws(&task, SEEDS);
-        let scores = counted(&task, &values_after(&task, &starts, &own, Ancestors::Sampled, 3));
+        let scores = counted(&task, &values_after(&task, &starts, &settings, Ancestors::Sampled, 3));
         assert!(worst(&scores) < LIMIT, "{name}: {scores:?}");
     }
 }
@@ -44,9 +44,9 @@ fn it_keeps_it_when_resampling_is_adaptive_and_the_power_changes() {
 #[test]
 fn ancestors_count_the_order_of_what_follows() {
     let task = task(PROGRAMS[7].1);
-    let own = small(3, Order::Stochastic);
+    let settings = small(3, Order::Stochastic);
     let scores =
-        counted(&task, &values_after(&task, &exact_draws(&task, 20_000), &own, Ancestors::Sampled, 4));
+        counted(&task, &values_after(&task, &exact_draws(&task, 20_000), &settings, Ancestors::Sampled, 4));
     assert!(worst(&scores) < LIMIT, "{scores:?}");
 }
 
@@ -54,8 +54,8 @@ fn ancestors_count_the_order_of_what_follows() {
 fn ancestor_sampling_moves_what_a_kept_past_does_not() {
     let task = task(PROGRAMS[1].1);
     let run = |ancestors| {
-        let own = Settings { seed: 1, ..small(5, Order::Stochastic) };
-        particle_gibbs(&task, &own, ancestors, 200, None, &mut |_| true).unwrap()
+        let settings = Settings { seed: 1, ..small(5, Order::Stochastic) };
+        particle_gibbs(&task, &settings, ancestors, 200, None, &mut |_| true).unwrap()
     };
     let (kept, sampled) = (run(Ancestors::Kept), run(Ancestors::Sampled));
     assert_eq!((kept.tries, kept.moves), (0, 0));
@@ -68,8 +68,8 @@ fn pimh_scores(text: &str) -> Vec<(String, f64)> {
     let task = task(text);
     let values: Vec<String> = (0..4000)
         .filter_map(|seed| {
-            let own = Settings { seed, ..small(3, Order::Stochastic) };
-            match pimh(&task, &own, 40, &mut |_| true) {
+            let settings = Settings { seed, ..small(3, Order::Stochastic) };
+            match pimh(&task, &settings, 40, &mut |_| true) {
                 Ok(chain) => Some(repr(&chain.states.last().unwrap().value).unwrap()),
                 Err(failure) if failure.is_impossible() => None,
                 Err(other) => panic!("{other}"),
@@ -94,8 +94,8 @@ fn pimh_evidence(text: &str, particles: usize) -> f64 {
     let exact = enumerate(&task, 100_000, &mut |_| true).unwrap().log_evidence;
     let (mut sum, mut squares, n) = (0.0, 0.0, 6000.0);
     for seed in 0..6000 {
-        let own = Settings { seed, ..small(particles, Order::Stochastic) };
-        let estimate = match pimh(&task, &own, 3, &mut |_| true) {
+        let settings = Settings { seed, ..small(particles, Order::Stochastic) };
+        let estimate = match pimh(&task, &settings, 3, &mut |_| true) {
             Ok(chain) => (chain.log_evidence.unwrap() - exact).exp(),
             Err(failure) if failure.is_impossible() => 0.0,
             Err(other) => panic!("{other}"),
@@ -125,8 +125,8 @@ fn the_evidence_of_pimh_is_unbiased_over_all_calls() {
 fn pimh_waits_for_a_population_that_survives() {
     let (mut late, mut failed) = (0, 0);
     for seed in 0..300 {
-        let own = Settings { seed, ..small(1, Order::Stochastic) };
-        match pimh(&task(RARE), &own, 9, &mut |_| true) {
+        let settings = Settings { seed, ..small(1, Order::Stochastic) };
+        match pimh(&task(RARE), &settings, 9, &mut |_| true) {
             Ok(chain) => {
                 assert!(chain.died < 10 && chain.tries == 9 && chain.moves <= chain.states.len());
                 assert!(chain.states.iter().all(|s| s.has_ended && s.cause.is_none()));
@@ -147,8 +147,8 @@ fn pimh_waits_for_a_population_that_survives() {
 fn particle_gibbs_waits_for_a_population_that_survives() {
     let (mut late, mut failed) = (0, 0);
     for seed in 0..300 {
-        let own = Settings { seed, ..small(2, Order::Stochastic) };
-        match particle_gibbs(&task(RARE), &own, Ancestors::Sampled, 9, None, &mut |_| true) {
+        let settings = Settings { seed, ..small(2, Order::Stochastic) };
+        match particle_gibbs(&task(RARE), &settings, Ancestors::Sampled, 9, None, &mut |_| true) {
             Ok(chain) => {
                 assert!(chain.died < 10 && chain.states.len() == 9);
                 late += usize::from(chain.died > 0);
@@ -176,12 +176,12 @@ fn a_population_that_died_is_a_proposal_that_was_rejected() {
     const SWEEPS: usize = 3;
     let (mut chains, mut at_two) = (0.0, [0.0; SWEEPS]);
     for seed in 0..20_000 {
-        let own = Settings { seed, ..small(1, Order::Stochastic) };
-        let first = Settings { seed: crate::gibbs::sweep_seed(seed, 0), ..own.clone() };
+        let settings = Settings { seed, ..small(1, Order::Stochastic) };
+        let first = Settings { seed: crate::gibbs::sweep_seed(seed, 0), ..settings.clone() };
         if smc(&task, &first, &mut |_| true).is_err() {
             continue;
         }
-        let chain = pimh(&task, &own, SWEEPS, &mut |_| true).unwrap();
+        let chain = pimh(&task, &settings, SWEEPS, &mut |_| true).unwrap();
         assert_eq!((chain.states.len(), chain.tries), (SWEEPS, SWEEPS), "seed {seed}");
         chains += 1.0;
         for (count, state) in at_two.iter_mut().zip(&chain.states) {
@@ -214,12 +214,12 @@ fn ancestors_count_the_power_that_is_to_come() {
     let (plain, sharp) = (task(&text("1.0")), task(&text("2.5")));
     let starts = exact_draws(&sharp, SEEDS);
     for ancestors in [Ancestors::Kept, Ancestors::Sampled] {
-        let own = Settings {
+        let settings = Settings {
             power: 2.5,
             anneal: Anneal::Schedule([0.0; 6].as_slice().into()),
             ..small(4, Order::Stochastic)
         };
-        let scores = counted(&sharp, &values_after(&plain, &starts, &own, ancestors, 3));
+        let scores = counted(&sharp, &values_after(&plain, &starts, &settings, ancestors, 3));
         assert!(worst(&scores) < LIMIT, "{ancestors:?}: {scores:?}");
     }
 }
@@ -233,8 +233,8 @@ fn ancestors_count_how_likely_the_rest_of_the_held_run_is() {
             (set $b (sample (dist bernoulli (cond $a 0.95 0.1)))) (do (factor (cond $b 0.4 -0.4)))
             (return (tuple $a $b))) (entry "m"))"#,
     );
-    let (starts, own) = (exact_draws(&task, SEEDS), small(4, Order::DepthFirst));
-    let scores = counted(&task, &values_after(&task, &starts, &own, Ancestors::Sampled, 3));
+    let (starts, settings) = (exact_draws(&task, SEEDS), small(4, Order::DepthFirst));
+    let scores = counted(&task, &values_after(&task, &starts, &settings, Ancestors::Sampled, 3));
     assert!(worst(&scores) < LIMIT, "{scores:?}");
 }
 
@@ -243,9 +243,9 @@ fn a_chain_is_the_same_on_any_number_of_threads() {
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let own = Settings { seed: 2, ..small(40, Order::Stochastic) };
+            let settings = Settings { seed: 2, ..small(40, Order::Stochastic) };
             let chain =
-                particle_gibbs(&task(PROGRAMS[5].1), &own, Ancestors::Sampled, 10, None, &mut |_| true)
+                particle_gibbs(&task(PROGRAMS[5].1), &settings, Ancestors::Sampled, 10, None, &mut |_| true)
                     .unwrap();
             let values: Vec<String> = chain.states.iter().map(|s| repr(&s.value).unwrap()).collect();
             (values, chain.moves, chain.tries)

@@ -46,9 +46,9 @@ fn threads_change_nothing_in_final_chains() {
             (run.log_evidence.unwrap().to_bits(), run.moved, values)
         })
     };
-    let one = run(1);
-    assert_eq!((one.2.len(), one.1.ended.proposed), (24, 72));
-    assert_eq!(one, run(8));
+    let serial = run(1);
+    assert_eq!((serial.2.len(), serial.1.ended.proposed), (24, 72));
+    assert_eq!(serial, run(8));
 }
 
 #[test]

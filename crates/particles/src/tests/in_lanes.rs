@@ -157,7 +157,7 @@ const APART: [(&str, &str); 8] = [
 ];
 
 /// All that a search says, as text with the bits of its numbers.
-fn said(task: &Task, settings: &Settings) -> String {
+fn transcript(task: &Task, settings: &Settings) -> String {
     let task = task.uncounted();
     match smc(&task, settings, &mut |_| true) {
         Err(Failure::Run(met)) => format!("{:?} {:?}", met.fault, met.stack),
@@ -186,28 +186,34 @@ fn said(task: &Task, settings: &Settings) -> String {
 }
 
 fn settings() -> Vec<Settings> {
-    let own = Settings { particles: 40, order: Order::DepthFirst, ..Settings::default() };
-    let mut all = vec![own.clone()];
-    all.extend(Resampling::ALL.map(|resampling| Settings { resampling, seed: 3, ..own.clone() }));
-    all.push(Settings { when: When::EffectiveBelow(0.5), order: Order::Stochastic, seed: 1, ..own.clone() });
-    all.push(Settings { power: 0.5, seed: 2, ..own.clone() });
-    all.push(Settings { anneal: Anneal::Schedule(vec![0.1, 0.5, 1.0]), seed: 4, ..own.clone() });
-    all.push(Settings { particles: 200, seed: 5, ..own });
+    let plain = Settings { particles: 40, order: Order::DepthFirst, ..Settings::default() };
+    let mut all = vec![plain.clone()];
+    all.extend(Resampling::ALL.map(|resampling| Settings { resampling, seed: 3, ..plain.clone() }));
+    all.push(Settings {
+        when: When::EffectiveBelow(0.5),
+        order: Order::Stochastic,
+        seed: 1,
+        ..plain.clone()
+    });
+    all.push(Settings { power: 0.5, seed: 2, ..plain.clone() });
+    all.push(Settings { anneal: Anneal::Schedule(vec![0.1, 0.5, 1.0]), seed: 4, ..plain.clone() });
+    all.push(Settings { particles: 200, seed: 5, ..plain });
     all
 }
 
 fn agree(name: &str, task: &Task) {
-    for own in settings() {
-        let [alone, together] = [false, true].map(|lanes| said(task, &Settings { lanes, ..own.clone() }));
+    for options in settings() {
+        let [alone, together] =
+            [false, true].map(|lanes| transcript(task, &Settings { lanes, ..options.clone() }));
         let other = alone.lines().zip(together.lines()).find(|(a, b)| a != b);
-        assert!(alone == together, "{name}, {own:?}: {other:#?}");
+        assert!(alone == together, "{name}, {options:?}: {other:#?}");
     }
 }
 
 #[test]
 fn lanes_say_what_particles_say() {
-    let others = PROGRAMS.iter().chain(&TOGETHER).chain(&APART);
-    others.for_each(|(name, text)| agree(name, &task(text)));
+    let programs = PROGRAMS.iter().chain(&TOGETHER).chain(&APART);
+    programs.for_each(|(name, text)| agree(name, &task(text)));
 }
 
 /// Limits are met at the same step, and with the same words.
@@ -217,9 +223,9 @@ fn limits_stop_lanes_as_they_stop_particles() {
         for (steps, bytes) in
             [(7, 1 << 30), (20, 1 << 30), (100_000, 40 << 10), (100_000, 200 << 10), (100_000, 300 << 10)]
         {
-            let mut own = task(text);
-            (own.limits.steps, own.limits.bytes) = (steps, bytes);
-            agree(name, &own);
+            let mut limited = task(text);
+            (limited.limits.steps, limited.limits.bytes) = (steps, bytes);
+            agree(name, &limited);
         }
     }
 }

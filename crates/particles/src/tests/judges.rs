@@ -21,7 +21,7 @@ pub(crate) fn task(text: &str) -> Task {
 
 /// The value of an entry as text; of an order choice, which future ran.
 pub(crate) fn written(entry: &niwaki_run::log::Entry) -> String {
-    entry.which().map_or_else(|| repr(&entry.value).unwrap(), |which| format!("future {which}"))
+    entry.which().map_or_else(|| repr(&entry.value).unwrap(), |future| format!("future {future}"))
 }
 
 /// Programs whose answer is known by enumeration.
@@ -153,7 +153,7 @@ pub(crate) fn z_scores(task: &Task, settings: &Settings, seeds: std::ops::Range<
     z_scores_of(task, &|seed| smc(task, &Settings { seed, ..settings.clone() }, &mut |_| true), seeds)
 }
 
-/// The same of any search that has a seed.
+/// Z-scores, as [`z_scores`], of any search that has a seed.
 pub(crate) fn z_scores_of(
     task: &Task,
     search: &(dyn Fn(u64) -> std::result::Result<Result, niwaki_run::Failure> + Sync),
@@ -233,8 +233,8 @@ pub(crate) fn settings(order: Order, resampling: Resampling) -> Settings {
 pub(crate) fn exact_draws(task: &Task, count: u64) -> Vec<Vec<Entry>> {
     let scores = (0..5000).map(|stream| forward(task, 2, stream, false).unwrap().log_score);
     let bound = scores.fold(f64::NEG_INFINITY, f64::max);
-    let found = rejection(task, count as usize, bound, u64::MAX, 1, &mut |_| true).unwrap();
-    found.runs.iter().map(|run| run.log.entries()).collect()
+    let accepted = rejection(task, count as usize, bound, u64::MAX, 1, &mut |_| true).unwrap();
+    accepted.runs.iter().map(|run| run.log.entries()).collect()
 }
 
 /// The values after `sweeps` sweeps of particle Gibbs from each start.
@@ -246,8 +246,8 @@ pub(crate) fn values_after(
     sweeps: usize,
 ) -> Vec<String> {
     let after = |(seed, start): (u64, &Vec<Entry>)| {
-        let own = Settings { seed, ..settings.clone() };
-        let chain = particle_gibbs(task, &own, ancestors, sweeps, Some(start), &mut |_| true).unwrap();
+        let settings = Settings { seed, ..settings.clone() };
+        let chain = particle_gibbs(task, &settings, ancestors, sweeps, Some(start), &mut |_| true).unwrap();
         repr(&chain.states.last().unwrap().value).unwrap()
     };
     (0..).zip(starts).map(after).collect()

@@ -42,8 +42,8 @@ fn evidence_and_posterior_are_right_under_any_forecast() {
             (8, 4000, Order::Stochastic, Resampling::Multinomial, low),
             (30, 1500, Order::Stochastic, Resampling::Tempered, When::Always),
         ] {
-            let own = Settings { when, ..ahead(particles, order.clone(), resampling) };
-            let scores = z_scores(&task, &own, 0..seeds);
+            let settings = Settings { when, ..ahead(particles, order.clone(), resampling) };
+            let scores = z_scores(&task, &settings, 0..seeds);
             assert!(worst(&scores) < LIMIT, "{name}, {particles}, {order:?}, {when:?}: {scores:?}");
         }
     }
@@ -56,9 +56,9 @@ fn powers_final_moves_and_several_populations_leave_them_right() {
         let kernel = niwaki_chain::kernel::Kernel::PRIOR;
         let rejuvenate = Rejuvenation { kernel, moves: 1, at: Moment::End, final_chains: None };
         let anneal = Anneal::Schedule([0.5, 1.4, 0.8].as_slice().into());
-        let own = ahead(12, Order::Stochastic, Resampling::Tempered);
-        let own = Settings { anneal, rejuvenate: Some(rejuvenate), ..own };
-        let of = |seed| populations(&task, &Settings { seed, ..own.clone() }, &[4, 9], &mut |_| true);
+        let settings = ahead(12, Order::Stochastic, Resampling::Tempered);
+        let settings = Settings { anneal, rejuvenate: Some(rejuvenate), ..settings };
+        let of = |seed| populations(&task, &Settings { seed, ..settings.clone() }, &[4, 9], &mut |_| true);
         let scores = z_scores_of(&task, &of, 0..3000);
         assert!(worst(&scores) < LIMIT, "{name}: {scores:?}");
     }
@@ -75,8 +75,8 @@ fn particle_gibbs_keeps_the_posterior_under_any_forecast() {
             (4, Order::DepthFirst, Resampling::Tempered, low, Ancestors::Kept),
             (5, Order::Stochastic, Resampling::Tempered, When::Always, Ancestors::Sampled),
         ] {
-            let own = Settings { when, ..ahead(particles, order.clone(), resampling) };
-            let scores = counted(&task, &values_after(&task, &starts, &own, ancestors, 3));
+            let settings = Settings { when, ..ahead(particles, order.clone(), resampling) };
+            let scores = counted(&task, &values_after(&task, &starts, &settings, ancestors, 3));
             assert!(worst(&scores) < LIMIT, "{name}, {particles}, {order:?}, {ancestors:?}: {scores:?}");
         }
     }
@@ -87,8 +87,8 @@ fn pimh_finds_the_posterior_under_any_forecast() {
     for (name, text) in PROGRAMS.into_iter().step_by(3) {
         let task = task(text);
         let last = |seed| {
-            let own = Settings { seed, ..ahead(8, Order::Stochastic, Resampling::Systematic) };
-            match pimh(&task, &own, 40, &mut |_| true) {
+            let settings = Settings { seed, ..ahead(8, Order::Stochastic, Resampling::Systematic) };
+            match pimh(&task, &settings, 40, &mut |_| true) {
                 Ok(chain) => Some(repr(&chain.states.last().unwrap().value).unwrap()),
                 Err(failure) if failure.is_impossible() => None,
                 Err(other) => panic!("{other}"),
@@ -105,9 +105,9 @@ fn pimh_finds_the_posterior_under_any_forecast() {
 #[test]
 fn the_forecast_is_in_the_weight_on_the_way_only() {
     let task = task(PROGRAMS[1].1);
-    let own =
+    let settings =
         Settings { when: When::EffectiveBelow(0.0), ..ahead(1, Order::DepthFirst, Resampling::Systematic) };
-    let mut population = Population::start(&task, &own, true).unwrap();
+    let mut population = Population::start(&task, &settings, true).unwrap();
     let mut seen = 0;
     while population.running() > 0 {
         population.advance(None).unwrap();
@@ -121,24 +121,24 @@ fn the_forecast_is_in_the_weight_on_the_way_only() {
     }
     assert!(seen >= 3, "{seen}");
     let mut left = 1;
-    let stopped = smc(&task, &own, &mut |_| {
+    let stopped = smc(&task, &settings, &mut |_| {
         left -= 1;
         left >= 0
     });
-    let one = &stopped.unwrap().particles[0];
-    assert!(!one.has_ended && (one.log_weight - one.log_score).abs() < 1e-12);
+    let particle = &stopped.unwrap().particles[0];
+    assert!(!particle.has_ended && (particle.log_weight - particle.log_score).abs() < 1e-12);
 }
 
 #[test]
 fn threads_change_nothing_under_a_forecast_and_the_forecast_changes_much() {
     let task = task(PROGRAMS[4].1);
-    let run = |threads: usize, own: Settings| {
+    let run = |threads: usize, settings: Settings| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let result = pool.install(|| smc(&task, &own, &mut |_| true)).unwrap();
+        let result = pool.install(|| smc(&task, &settings, &mut |_| true)).unwrap();
         let logs = result.particles.iter().map(|p| p.log_weight.to_bits());
         (result.log_evidence.unwrap().to_bits(), logs.collect::<Vec<_>>())
     };
-    let own = Settings { seed: 5, ..ahead(100, Order::Stochastic, Resampling::Tempered) };
-    assert_eq!(run(1, own.clone()), run(3, own.clone()));
-    assert_ne!(run(1, own.clone()).0, run(1, Settings { look_ahead: None, ..own }).0);
+    let settings = Settings { seed: 5, ..ahead(100, Order::Stochastic, Resampling::Tempered) };
+    assert_eq!(run(1, settings.clone()), run(3, settings.clone()));
+    assert_ne!(run(1, settings.clone()).0, run(1, Settings { look_ahead: None, ..settings }).0);
 }

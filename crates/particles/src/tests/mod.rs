@@ -61,7 +61,7 @@ fn adaptive_resampling_is_right_too() {
     }
 }
 
-/// What fixed seeds hide: ten times the runs, from a fresh seed that is printed.
+/// Faults that fixed seeds hide: ten times the runs, from a fresh seed that is printed.
 #[test]
 #[ignore = "long; `make soak` runs it"]
 fn fresh_seeds_agree_too() {
@@ -87,9 +87,9 @@ fn every_order_is_as_likely_as_any_other() {
         r#"(module (fn "leaf" (params) (return (sample (dist bernoulli 0.5))))
             (fn "m" (params) (do (future "leaf")) (do (future "leaf")) (do (future "leaf")) (return 0)) (entry "m"))"#,
     );
-    let own = Settings { particles: 6000, seed: 3, ..Settings::default() };
+    let settings = Settings { particles: 6000, seed: 3, ..Settings::default() };
     let mut counts: HashMap<Vec<usize>, f64> = HashMap::new();
-    for p in smc(&task, &own, &mut |_| true).unwrap().particles {
+    for p in smc(&task, &settings, &mut |_| true).unwrap().particles {
         let picks = p.log.entries().iter().filter_map(niwaki_run::log::Entry::which).collect();
         *counts.entry(picks).or_insert(0.0) += 1.0;
     }
@@ -97,7 +97,7 @@ fn every_order_is_as_likely_as_any_other() {
     assert!(counts.len() == 6 && statistic < 35.9, "{counts:?}");
 }
 
-/// The same seed gives the same bits on any number of threads.
+/// A seed gives the same bits on any number of threads.
 #[test]
 fn threads_change_nothing() {
     let task = task(PROGRAMS[5].1);
@@ -138,17 +138,17 @@ fn copies_are_the_same_in_batches() {
                 for mut batch in copies.batches(particles, 5, size, threads).into_iter().flatten() {
                     assert!(batch.len() <= size);
                     copy(&mut batch, 5);
-                    indices.extend(batch.iter().map(|one| one.index));
+                    indices.extend(batch.iter().map(|copy| copy.index));
                 }
                 indices.sort_unstable();
                 assert_eq!(indices, (0..40).collect::<Vec<_>>());
             }
         }
-        let one = |p: &Particle| {
-            let own = p.record.log.entries();
-            (p.lineage, own.iter().map(|e| (e.address(), written(e))).collect::<Vec<_>>())
+        let choices = |p: &Particle| {
+            let entries = p.record.log.entries();
+            (p.lineage, entries.iter().map(|e| (e.address(), written(e))).collect::<Vec<_>>())
         };
-        (particles.iter().map(one).collect::<Vec<_>>(), ancestry.first, ancestry.lineages)
+        (particles.iter().map(choices).collect::<Vec<_>>(), ancestry.first, ancestry.lineages)
     };
     for batches in [(1, 2), (4, 1), (4, 3), (16, 2)] {
         assert_eq!(copied(None), copied(Some(batches)));

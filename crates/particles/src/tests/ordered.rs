@@ -70,19 +70,19 @@ fn expected(order: &[usize]) -> f64 {
     // Which futures can run, in order; `a` needs two turns.
     let (mut can, mut p, mut last) = (vec!["a", "b", "c"], 1.0, "");
     let mut turned = false;
-    for which in order {
+    for pick in order {
         let weigh = |name: &&str| match (*name, *name == last) {
             ("a", false) => 2.0,
             ("a", true) => 6.0,
             ("c", _) => 0.5,
             _ => 1.0,
         };
-        p *= weigh(&can[*which]) / can.iter().map(weigh).sum::<f64>();
-        last = can[*which];
+        p *= weigh(&can[*pick]) / can.iter().map(weigh).sum::<f64>();
+        last = can[*pick];
         if last == "a" && !turned {
             turned = true;
         } else {
-            can.remove(*which);
+            can.remove(*pick);
         }
     }
     p
@@ -100,7 +100,7 @@ fn picks(entries: &[Entry]) -> Vec<usize> {
 /// Chi-square of counts of orders against the formula; the false-alarm rate is 1e-6 for 11 degrees of freedom or fewer.
 fn check_orders(all: &[Vec<usize>]) {
     let mut counts: HashMap<&[usize], f64> = HashMap::new();
-    all.iter().for_each(|one| *counts.entry(one).or_insert(0.0) += 1.0);
+    all.iter().for_each(|order| *counts.entry(order).or_insert(0.0) += 1.0);
     let n = all.len() as f64;
     let mass: f64 = counts.keys().map(|order| expected(order)).sum();
     assert!((mass - 1.0).abs() < 1e-9 && (6..=12).contains(&counts.len()), "{mass}: {counts:?}");
@@ -113,14 +113,14 @@ fn check_orders(all: &[Vec<usize>]) {
 #[test]
 fn a_policy_has_the_probabilities_of_its_formula() {
     let text = LEAVES.replace("0.0001", "1.0");
-    let own = Settings {
+    let settings = Settings {
         particles: 20_000,
         order: known(),
         seed: 3,
         when: When::EffectiveBelow(0.0),
         ..Settings::default()
     };
-    let run = smc(&task(&text), &own, &mut |_| true).unwrap();
+    let run = smc(&task(&text), &settings, &mut |_| true).unwrap();
     let all: Vec<_> = run.particles.iter().map(|p| picks(&p.log.entries())).collect();
     check_orders(&all);
 }
@@ -129,11 +129,11 @@ fn a_policy_has_the_probabilities_of_its_formula() {
 #[test]
 fn the_held_run_is_ordered_anew_in_each_sweep() {
     let task = task(LEAVES);
-    let found = rejection(&task, 1, 0.0, u64::MAX, 1, &mut |_| true).unwrap();
-    let start = found.runs[0].log.entries();
+    let accepted = rejection(&task, 1, 0.0, u64::MAX, 1, &mut |_| true).unwrap();
+    let start = accepted.runs[0].log.entries();
     let when = When::EffectiveBelow(0.0);
-    let own = Settings { order: known(), when, seed: 5, ..small(2, Order::Stochastic) };
-    let chain = particle_gibbs(&task, &own, Ancestors::Kept, 4000, Some(&start), &mut |_| true).unwrap();
+    let settings = Settings { order: known(), when, seed: 5, ..small(2, Order::Stochastic) };
+    let chain = particle_gibbs(&task, &settings, Ancestors::Kept, 4000, Some(&start), &mut |_| true).unwrap();
     let all: Vec<_> = chain.states.iter().map(|state| picks(&state.log.entries())).collect();
     check_orders(&all);
 }
@@ -184,8 +184,8 @@ fn an_order_that_is_impossible_is_not_taken() {
           (return $x)) (entry "m"))"#;
     let task = Task { sketches: vec![Arc::new(Carried::default())], ..task(text) };
     for order in [Order::Stochastic, skewed()] {
-        let own = Settings { seed: 4, ..small(3, order) };
-        let chain = particle_gibbs(&task, &own, Ancestors::Sampled, 200, None, &mut |_| true).unwrap();
+        let settings = Settings { seed: 4, ..small(3, order) };
+        let chain = particle_gibbs(&task, &settings, Ancestors::Sampled, 200, None, &mut |_| true).unwrap();
         // The root has returned before the first pick; then the post runs, which was created second.
         let first = |state: &Run| *picks(&state.log.entries()).first().unwrap();
         assert_eq!(chain.states.len(), 200);
@@ -236,9 +236,9 @@ fn moves_keep_the_law_under_a_learned_order() {
 #[test]
 fn a_copy_has_the_past_of_its_parent() {
     let task = task(PROGRAMS[5].1);
-    let own =
+    let settings =
         Settings { particles: 60, order: skewed(), ..settings(Order::Stochastic, Resampling::Multinomial) };
-    let mut population = Population::start(&task, &own, true).unwrap();
+    let mut population = Population::start(&task, &settings, true).unwrap();
     let (mut seen, mut copies) = (HashMap::new(), 0);
     for _ in 0..3 {
         population.advance(None).unwrap();
@@ -247,11 +247,11 @@ fn a_copy_has_the_past_of_its_parent() {
         for p in population.settled() {
             p.past.look(&task.program, &p.state);
             let logs = p.past.logs(&p.state).unwrap();
-            let own: Vec<_> = p.record.log.entries().iter().map(|e| (e.address(), written(e))).collect();
+            let choices: Vec<_> = p.record.log.entries().iter().map(|e| (e.address(), written(e))).collect();
             if !p.state.has_ended() {
                 copies += 1;
                 assert_eq!(
-                    seen.entry((own, p.state.suspension_hash())).or_insert_with(|| logs.clone()),
+                    seen.entry((choices, p.state.suspension_hash())).or_insert_with(|| logs.clone()),
                     &logs
                 );
             }
@@ -264,10 +264,10 @@ fn a_copy_has_the_past_of_its_parent() {
 #[test]
 fn a_policy_of_zeros_is_the_uniform_order() {
     for (_, text) in with_futures() {
-        let own = |order| Settings { seed: 2, ..settings(order, Resampling::Systematic) };
+        let seeded = |order| Settings { seed: 2, ..settings(order, Resampling::Systematic) };
         let orders = |order| -> Vec<_> {
-            let found = smc(&task(text), &own(order), &mut |_| true).unwrap();
-            found.particles.iter().map(|p| picks(&p.log.entries())).collect()
+            let result = smc(&task(text), &seeded(order), &mut |_| true).unwrap();
+            result.particles.iter().map(|p| picks(&p.log.entries())).collect()
         };
         assert_eq!(orders(Order::Stochastic), orders(Order::Learned(Arc::default())));
     }

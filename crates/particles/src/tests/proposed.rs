@@ -61,12 +61,12 @@ const GUIDED: [(usize, &[(&str, &str)]); 7] = [
 
 /// A program that keeps the variables of the proposals, and the proposals.
 fn guided(text: &str, parts: &[(&str, &str)]) -> (Task, Proposal) {
-    let own = |(pattern, function): &(&str, &str)| {
+    let user_proposal = |(pattern, function): &(&str, &str)| {
         let user = User::new(task(&format!(r#"(module (fn "q" {function}) (entry "q"))"#))).unwrap();
         let selection = Selection { sites: vec![vec![pattern.to_string()]], ..Selection::default() };
         (selection, Arc::new(user))
     };
-    let parts: Vec<(Selection, Arc<User>)> = parts.iter().map(own).collect();
+    let parts: Vec<(Selection, Arc<User>)> = parts.iter().map(user_proposal).collect();
     let names: Vec<Name> = parts.iter().flat_map(|(_, user)| user.variables().cloned()).collect();
     let program = compile_with_scope(&parse(text).unwrap(), vec![], Scope::Names(&names)).unwrap();
     let kernels =
@@ -106,13 +106,13 @@ fn nor_do_they_beside_other_settings() {
         let plain = with(&proposal, Order::Stochastic, 8);
         let moved =
             Rejuvenation { kernel: Kernel::PRIOR, moves: 2, at: Moment::Every(1), final_chains: None };
-        for own in [
+        for settings in [
             Settings { when: When::EffectiveBelow(0.5), ..plain.clone() },
             Settings { anneal: Anneal::Schedule([0.3, 2.5, 0.7].as_slice().into()), ..plain.clone() },
             Settings { rejuvenate: Some(moved), ..plain.clone() },
         ] {
-            let scores = z_scores(&task, &own, 0..3000);
-            assert!(worst(&scores) < LIMIT, "{name}: {own:?}: {scores:?}");
+            let scores = z_scores(&task, &settings, 0..3000);
+            assert!(worst(&scores) < LIMIT, "{name}: {settings:?}: {scores:?}");
         }
     }
 }
@@ -124,21 +124,21 @@ fn a_proposal_has_no_power() {
     let twice = text.replace("-0.5 0.0", "-1.0 0.0").replace("0.0 -1.5", "0.0 -3.0");
     let exact = enumerate(&task(&twice), 100, &mut |_| true).unwrap().log_evidence;
     let (task, proposal) = guided(text, parts);
-    let own = Settings { power: 2.0, ..with(&Arc::new(proposal), Order::Stochastic, 4) };
-    let found: Vec<f64> = (0..4000)
+    let settings = Settings { power: 2.0, ..with(&Arc::new(proposal), Order::Stochastic, 4) };
+    let estimates: Vec<f64> = (0..4000)
         .map(|seed| {
-            let run = smc(&task, &Settings { seed, ..own.clone() }, &mut |_| true).unwrap();
+            let run = smc(&task, &Settings { seed, ..settings.clone() }, &mut |_| true).unwrap();
             (run.log_normaliser.unwrap() - exact).exp()
         })
         .collect();
-    assert!(z_of(&found, 1.0).abs() < LIMIT);
+    assert!(z_of(&estimates, 1.0).abs() < LIMIT);
 }
 
 /// The distance of the mean of independent numbers from the expected one, in standard errors.
-fn z_of(found: &[f64], expected: f64) -> f64 {
-    let n = found.len() as f64;
-    let mean = found.iter().sum::<f64>() / n;
-    let variance = found.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / n;
+fn z_of(estimates: &[f64], expected: f64) -> f64 {
+    let n = estimates.len() as f64;
+    let mean = estimates.iter().sum::<f64>() / n;
+    let variance = estimates.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / n;
     (mean - expected) / (variance / n).sqrt()
 }
 
@@ -146,17 +146,18 @@ fn z_of(found: &[f64], expected: f64) -> f64 {
 fn importance_sampling_weighs_what_a_proposal_draws() {
     for (name, _, task, proposal) in cases() {
         let exact = enumerate(&task, 100_000, &mut |_| true).unwrap();
-        let found = importance(&task, Some(&proposal), 40_000, 3, &mut |_| true).unwrap();
+        let sampled = importance(&task, Some(&proposal), 40_000, 3, &mut |_| true).unwrap();
         let weight = |sample: &niwaki_run::run::Run| (sample.log_weight - exact.log_evidence).exp();
-        let all: Vec<f64> = found.runs.iter().map(weight).collect();
+        let all: Vec<f64> = sampled.runs.iter().map(weight).collect();
         let z = z_of(&all, 1.0);
         assert!(z.abs() < LIMIT, "{name}: {z}");
         for (value, log) in &exact.outcomes {
-            let own = repr(value).unwrap();
+            let expected = repr(value).unwrap();
             let share =
-                |s: &niwaki_run::run::Run| if repr(&s.value).unwrap() == own { weight(s) } else { 0.0 };
-            let z = z_of(&found.runs.iter().map(share).collect::<Vec<_>>(), (log - exact.log_evidence).exp());
-            assert!(z.abs() < LIMIT, "{name}, {own}: {z}");
+                |s: &niwaki_run::run::Run| if repr(&s.value).unwrap() == expected { weight(s) } else { 0.0 };
+            let z =
+                z_of(&sampled.runs.iter().map(share).collect::<Vec<_>>(), (log - exact.log_evidence).exp());
+            assert!(z.abs() < LIMIT, "{name}, {expected}: {z}");
         }
     }
 }
@@ -184,17 +185,17 @@ fn numbers_have_the_known_evidence() {
         -0.5 * (y[0] * solved[0] + y[1] * solved[1]) - 0.5 * determinant.ln() - std::f64::consts::TAU.ln();
     let mean = 0.9 * solved[0] + 1.06 * solved[1];
     let look = |order: Order, particles, seeds: u64| {
-        let one = |seed| {
-            let own = Settings { seed, ..with(&proposal, order.clone(), particles) };
-            let run = smc(&task, &own, &mut |_| true).unwrap();
+        let estimate = |seed| {
+            let settings = Settings { seed, ..with(&proposal, order.clone(), particles) };
+            let run = smc(&task, &settings, &mut |_| true).unwrap();
             let evidence = (run.log_evidence.unwrap() - log_evidence).exp();
             let total: f64 = run.particles.iter().map(|p| p.log_weight.exp()).sum();
             let value = |p: &Run| if let niwaki_vm::value::Value::Real(x) = p.value { x } else { 0.0 };
             let sum: f64 = run.particles.iter().map(|p| p.log_weight.exp() * value(p)).sum();
             (evidence, evidence * sum / total)
         };
-        let found: Vec<(f64, f64)> = (0..seeds).map(one).collect();
-        let part = |of: fn(&(f64, f64)) -> f64| found.iter().map(of).collect::<Vec<f64>>();
+        let pairs: Vec<(f64, f64)> = (0..seeds).map(estimate).collect();
+        let part = |of: fn(&(f64, f64)) -> f64| pairs.iter().map(of).collect::<Vec<f64>>();
         [z_of(&part(|f| f.0), 1.0), z_of(&part(|f| f.1), mean)]
     };
     for order in [Order::DepthFirst, Order::Stochastic] {
@@ -211,8 +212,8 @@ fn particle_gibbs_keeps_the_posterior_under_a_proposal() {
         let starts = exact_draws(&task, 3000);
         for order in orders(text) {
             for ancestors in [Ancestors::Kept, Ancestors::Sampled] {
-                let own = Settings { proposal: Some(proposal.clone()), ..small(3, order.clone()) };
-                let scores = counted(&task, &values_after(&task, &starts, &own, ancestors, 3));
+                let settings = Settings { proposal: Some(proposal.clone()), ..small(3, order.clone()) };
+                let scores = counted(&task, &values_after(&task, &starts, &settings, ancestors, 3));
                 assert!(worst(&scores) < LIMIT, "{name}, {order:?}, {ancestors:?}: {scores:?}");
             }
         }
@@ -224,8 +225,9 @@ fn pimh_keeps_the_posterior_under_a_proposal() {
     for (name, _, task, proposal) in cases().step_by(2) {
         let values: Vec<String> = (0..1500)
             .filter_map(|seed| {
-                let own = Settings { seed, proposal: Some(proposal.clone()), ..small(3, Order::Stochastic) };
-                match pimh(&task, &own, 40, &mut |_| true) {
+                let settings =
+                    Settings { seed, proposal: Some(proposal.clone()), ..small(3, Order::Stochastic) };
+                match pimh(&task, &settings, 40, &mut |_| true) {
                     Ok(chain) => Some(repr(&chain.states.last().unwrap().value).unwrap()),
                     Err(failure) if failure.is_impossible() => None,
                     Err(other) => panic!("{other}"),
@@ -237,8 +239,8 @@ fn pimh_keeps_the_posterior_under_a_proposal() {
     }
 }
 
-fn code<T>(found: std::result::Result<T, niwaki_run::Failure>) -> (&'static str, String) {
-    match found {
+fn code<T>(outcome: std::result::Result<T, niwaki_run::Failure>) -> (&'static str, String) {
+    match outcome {
         Err(niwaki_run::Failure::Run(met)) => (met.fault.code, met.fault.message.to_string()),
         Err(niwaki_run::Failure::Setting(fault)) => (fault.code, fault.message.to_string()),
         Err(other) => panic!("{other}"),
@@ -251,8 +253,8 @@ fn a_proposal_that_leaves_values_out_is_refused() {
     let text = PROGRAMS[0].1;
     let narrow = &[("b", "(params $a) (return (dist bernoulli (cond $a 1.0 0.5)))")];
     let (task, proposal) = guided(text, narrow);
-    let own = with(&Arc::new(proposal), Order::Stochastic, 8);
-    let (code, message) = code(smc(&task, &own, &mut |_| true));
+    let settings = with(&Arc::new(proposal), Order::Stochastic, 8);
+    let (code, message) = code(smc(&task, &settings, &mut |_| true));
     assert_eq!(code, "proposal-support");
     assert_eq!(message, "the proposal `q` of the choice `b` never draws False, which its `bernoulli` does");
 }
@@ -262,17 +264,18 @@ fn what_a_proposal_cannot_be_is_refused() {
     let text = PROGRAMS[4].1;
     let refused = |pattern: &str, function: &str| {
         let (task, proposal) = guided(text, &[(pattern, function)]);
-        let found = code(smc(&task, &with(&Arc::new(proposal.clone()), Order::Stochastic, 8), &mut |_| true));
-        assert_eq!(found.0, code(importance(&task, Some(&proposal), 50, 1, &mut |_| true)).0);
-        found
+        let refusal =
+            code(smc(&task, &with(&Arc::new(proposal.clone()), Order::Stochastic, 8), &mut |_| true));
+        assert_eq!(refusal.0, code(importance(&task, Some(&proposal), 50, 1, &mut |_| true)).0);
+        refusal
     };
-    let (found, message) = refused("c", "(params $p) (return (dist bernoulli $p))");
-    assert_eq!(found, "proposal-scope");
+    let (name, message) = refused("c", "(params $p) (return (dist bernoulli $p))");
+    assert_eq!(name, "proposal-scope");
     assert_eq!(message, "the proposal `q` asks for `p` at the choice `c`, where it is not in scope");
     // A handle is no number.
-    let (own, proposal) = guided(text, &[("c", "(params $x) (return (dist bernoulli 0.5))")]);
-    let found = code(smc(&own, &with(&Arc::new(proposal), Order::Stochastic, 8), &mut |_| true));
-    assert_eq!(found.0, "proposal-scope", "{}", found.1);
+    let (host, proposal) = guided(text, &[("c", "(params $x) (return (dist bernoulli 0.5))")]);
+    let refusal = code(smc(&host, &with(&Arc::new(proposal), Order::Stochastic, 8), &mut |_| true));
+    assert_eq!(refusal.0, "proposal-scope", "{}", refusal.1);
     assert_eq!(refused("b", "(params) (return (dist gaussian 0.0 1.0))").0, "proposal-kind");
     assert_eq!(refused("d", "(params) (return (dist bernoulli 0.5))").0, "no-address");
     assert_eq!(refused("b", "(params) (return 0.5)").0, "bad-proposal");
@@ -288,11 +291,11 @@ fn a_draw_outside_of_the_prior_is_impossible() {
     let text = r#"(module (fn "m" (params) (set $x (sample (dist uniform 0.0 1.0))) (do (factor 0.0)) (return $x))
         (entry "m"))"#;
     let (task, proposal) = guided(text, &[("x", "(params) (return (dist gaussian 0.5 1.0))")]);
-    let found = importance(&task, Some(&proposal), 20_000, 5, &mut |_| true).unwrap();
-    let all: Vec<f64> = found.runs.iter().map(|s| s.log_weight.exp()).collect();
+    let sampled = importance(&task, Some(&proposal), 20_000, 5, &mut |_| true).unwrap();
+    let all: Vec<f64> = sampled.runs.iter().map(|s| s.log_weight.exp()).collect();
     assert!(all.contains(&0.0) && z_of(&all, 1.0).abs() < LIMIT);
     let (task, far) = guided(text, &[("x", "(params) (return (dist gaussian 99.0 1.0))")]);
-    let causes = |found: niwaki_run::Failure| match found {
+    let causes = |failure: niwaki_run::Failure| match failure {
         niwaki_run::Failure::Impossible { causes, .. } => causes,
         other => panic!("{other}"),
     };
@@ -301,6 +304,6 @@ fn a_draw_outside_of_the_prior_is_impossible() {
         causes(importance(&task, Some(&far), 50, 5, &mut |_| true).err().unwrap()),
         [(message.clone(), 50)]
     );
-    let own = with(&Arc::new(far), Order::DepthFirst, 20);
-    assert_eq!(causes(smc(&task, &own, &mut |_| true).err().unwrap()), [(message, 20)]);
+    let settings = with(&Arc::new(far), Order::DepthFirst, 20);
+    assert_eq!(causes(smc(&task, &settings, &mut |_| true).err().unwrap()), [(message, 20)]);
 }

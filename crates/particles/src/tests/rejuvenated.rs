@@ -75,14 +75,17 @@ fn rejuvenation(kernel: Kernel, moves: u64, at: Moment) -> Option<Rejuvenation> 
 
 /// A run as text: in order while it runs, as a set once it has ended.
 fn text(p: &Particle) -> String {
-    let one = |e: &niwaki_run::log::Entry| format!("{:x}={}", e.address(), written(e));
+    let choice = |e: &niwaki_run::log::Entry| format!("{:x}={}", e.address(), written(e));
     let entries = p.record.log.entries();
     if !p.state.has_ended() {
-        return entries.iter().map(|e| if e.is_order() { format!("!{}", one(e)) } else { one(e) }).collect();
+        return entries
+            .iter()
+            .map(|e| if e.is_order() { format!("!{}", choice(e)) } else { choice(e) })
+            .collect();
     }
-    let mut own: Vec<String> = entries.iter().filter(|e| !e.is_order()).map(one).collect();
-    own.sort();
-    format!("ended {}", own.concat())
+    let mut choices: Vec<String> = entries.iter().filter(|e| !e.is_order()).map(choice).collect();
+    choices.sort();
+    format!("ended {}", choices.concat())
 }
 
 /// The worst z of the counts of moved draws from the law at a barrier, the number of states, and the moves.
@@ -94,9 +97,9 @@ pub(super) fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> 
             p.was_ended = p.state.has_ended();
             let (prior, lineage) = (Prior(p.stream), p.lineage);
             let pick = |_: &mut Prior, turn: Turn<'_>| {
-                let which = turn.pick(settings.seed, lineage);
-                *log_order += turn.past.log_probability(turn.state, which);
-                Some(which)
+                let picked = turn.pick(settings.seed, lineage);
+                *log_order += turn.past.log_probability(turn.state, picked);
+                Some(picked)
             };
             p.advance_by(&mut machine, task, pick, prior).unwrap();
         }
@@ -109,8 +112,8 @@ pub(super) fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> 
         let log_law = log_run + settings.power * p.record.log_score();
         p.weighed = p.record.score();
         p.log_weight = f64::NEG_INFINITY;
-        let own: Vec<_> = entries.iter().map(|e| (e.address(), written(e))).collect();
-        if whole.insert(own, ()).is_none() {
+        let choices: Vec<_> = entries.iter().map(|e| (e.address(), written(e))).collect();
+        if whole.insert(choices, ()).is_none() {
             mass += log_run.exp();
             *law.entry(text(p)).or_insert(0.0) += log_law.exp();
             p.log_weight = log_law;

@@ -59,8 +59,8 @@ fn evidence_and_posterior_are_right_for_any_number_of_particles() {
             (30, 1500, Order::DepthFirst, low),
             (100, 600, Order::Stochastic, When::Always),
         ] {
-            let own = Settings { when, ..tempered(particles, order.clone()) };
-            let scores = z_scores(&task, &own, 0..seeds);
+            let settings = Settings { when, ..tempered(particles, order.clone()) };
+            let scores = z_scores(&task, &settings, 0..seeds);
             assert!(worst(&scores) < LIMIT, "{name}, {particles}, {order:?}, {when:?}: {scores:?}");
         }
     }
@@ -74,8 +74,8 @@ fn a_schedule_of_powers_and_moves_leave_them_right() {
             let kernel = niwaki_chain::kernel::Kernel::PRIOR;
             let rejuvenate = at.map(|at| Rejuvenation { kernel, moves: 1, at, final_chains: None });
             let anneal = Anneal::Schedule([0.5, 1.4, 0.8].as_slice().into());
-            let own = Settings { anneal, rejuvenate, ..tempered(12, Order::Stochastic) };
-            let scores = z_scores(&task, &own, 0..3000);
+            let settings = Settings { anneal, rejuvenate, ..tempered(12, Order::Stochastic) };
+            let scores = z_scores(&task, &settings, 0..3000);
             assert!(worst(&scores) < LIMIT, "{name}, {at:?}: {scores:?}");
         }
     }
@@ -85,8 +85,8 @@ fn a_schedule_of_powers_and_moves_leave_them_right() {
 fn several_populations_are_right_too() {
     for (name, text) in sharp() {
         let task = task(&text);
-        let own = tempered(1, Order::Stochastic);
-        let of = |seed| populations(&task, &Settings { seed, ..own.clone() }, &[3, 9], &mut |_| true);
+        let settings = tempered(1, Order::Stochastic);
+        let of = |seed| populations(&task, &Settings { seed, ..settings.clone() }, &[3, 9], &mut |_| true);
         let scores = z_scores_of(&task, &of, 0..4000);
         assert!(worst(&scores) < LIMIT, "{name}: {scores:?}");
     }
@@ -104,8 +104,8 @@ fn particle_gibbs_keeps_the_posterior_by_tempered_weights() {
             (5, Order::Stochastic, low, Ancestors::Sampled),
             (6, Order::DepthFirst, When::Always, Ancestors::Sampled),
         ] {
-            let own = Settings { when, ..tempered(particles, order.clone()) };
-            let scores = counted(&task, &values_after(&task, &starts, &own, ancestors, 3));
+            let settings = Settings { when, ..tempered(particles, order.clone()) };
+            let scores = counted(&task, &values_after(&task, &starts, &settings, ancestors, 3));
             assert!(worst(&scores) < LIMIT, "{name}, {particles}, {order:?}, {ancestors:?}: {scores:?}");
         }
     }
@@ -116,8 +116,8 @@ fn pimh_finds_the_posterior_by_tempered_weights() {
     for (name, text) in sharp().into_iter().step_by(2) {
         let task = task(&text);
         let last = |seed| {
-            let own = Settings { seed, ..tempered(16, Order::Stochastic) };
-            match pimh(&task, &own, 50, &mut |_| true) {
+            let settings = Settings { seed, ..tempered(16, Order::Stochastic) };
+            match pimh(&task, &settings, 50, &mut |_| true) {
                 Ok(chain) => Some(repr(&chain.states.last().unwrap().value).unwrap()),
                 Err(failure) if failure.is_impossible() => None,
                 Err(other) => panic!("{other}"),
@@ -135,12 +135,15 @@ fn threads_change_nothing_by_tempered_weights() {
     for (_, text) in sharp() {
         let task = task(&text);
         let run = |threads: usize, resampling: Resampling| {
-            let own = Settings { seed: 5, resampling, ..tempered(100, Order::Stochastic) };
+            let settings = Settings { seed: 5, resampling, ..tempered(100, Order::Stochastic) };
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| {
-                let found = smc(&task, &own, &mut |_| true).unwrap();
-                let one = |p: &Run| (repr(&p.value).unwrap(), p.log_weight.to_bits());
-                (found.log_evidence.unwrap().to_bits(), found.particles.iter().map(one).collect::<Vec<_>>())
+                let result = smc(&task, &settings, &mut |_| true).unwrap();
+                let outcome = |p: &Run| (repr(&p.value).unwrap(), p.log_weight.to_bits());
+                (
+                    result.log_evidence.unwrap().to_bits(),
+                    result.particles.iter().map(outcome).collect::<Vec<_>>(),
+                )
             })
         };
         let serial = run(1, Resampling::Tempered);
