@@ -137,7 +137,9 @@ impl Chain {
     /// Statistics of each gradient leaf, in the order of the kernel: the counts of its trajectories, the step size of a coordinate, the
     /// numbers of structures and of recorded runs.
     pub fn trajectories(&self) -> impl Iterator<Item = (&TrajectoryCounts, f64, (u64, u64))> {
-        self.plan.trajectories().map(|own| (&own.counts, own.step(), own.recorded()))
+        self.plan
+            .trajectories()
+            .map(|trajectory| (&trajectory.counts, trajectory.step(), trajectory.recorded()))
     }
 
     /// Make `steps` proposals. `watch` is called regularly with the number of proposals and the best score; when it returns false,

@@ -151,7 +151,7 @@ pub fn explain(task: &Task, seed: u64, tries: u64, address: &str) -> Result<Expl
             .into_iter()
             .map(|(strategy, steps, is_complete)| Run {
                 strategy,
-                steps: steps.iter().filter_map(|(what, key)| Some((*what, at(key)?))).collect(),
+                steps: steps.iter().filter_map(|(event, key)| Some((*event, at(key)?))).collect(),
                 is_complete,
             })
             .collect(),
@@ -166,7 +166,7 @@ fn named(state: &State, task: &Task, noted: &[Step]) -> Keyed {
     let mut steps: Keyed = Vec::new();
     let mut returned = None;
     for (i, step) in noted.iter().enumerate() {
-        let (what, node) = match step {
+        let (event, node) = match step {
             Step::Created(node) => (Event::Created, *node),
             Step::Entered(node) => {
                 let from_below = returned.is_some_and(|below| trace.is_below(below, *node));
@@ -185,8 +185,8 @@ fn named(state: &State, task: &Task, noted: &[Step]) -> Keyed {
         }
         let Some(key) = trace.key_of(program, node) else { continue };
         // A created activation is entered at once.
-        if !(what == Event::Invoked && steps.last() == Some(&(Event::Created, key))) {
-            steps.push((what, key));
+        if !(event == Event::Invoked && steps.last() == Some(&(Event::Created, key))) {
+            steps.push((event, key));
         }
     }
     steps

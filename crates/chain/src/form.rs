@@ -19,7 +19,7 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 use std::sync::Arc;
 
-/// What a kernel needs beside its data.
+/// A part of a kernel that is not data.
 #[derive(Clone, Debug)]
 pub enum Attached {
     /// A user's proposal.
@@ -37,7 +37,7 @@ pub struct Form {
     settings: Map<String, Value>,
     #[serde(default)]
     parts: Vec<Form>,
-    /// Of a user's proposal or a guide: its number among what is attached to the form.
+    /// The number of the kernel's proposal or guide among the attached parts.
     #[serde(default)]
     function: Option<usize>,
 }
@@ -98,10 +98,10 @@ impl Form {
             return Ok(Tempered { kernel: self.kernel(attached)?, powers: vec![1.0], every: 100 });
         }
         self.check()?;
-        let mut own = self.own();
-        let (powers, every) = (own.take("powers")?, own.take("every")?);
-        let kernel = own.part(attached)?;
-        own.end(Tempered { kernel, powers, every })
+        let mut unread = self.unread();
+        let (powers, every) = (unread.take("powers")?, unread.take("every")?);
+        let kernel = unread.part(attached)?;
+        unread.end(Tempered { kernel, powers, every })
     }
 
     /// The kernel; `attached` are users' proposals and guides, by number.
@@ -110,66 +110,66 @@ impl Form {
     /// An unknown name or setting, or nothing attached where it is needed.
     pub fn kernel(&self, attached: &[Attached]) -> Result<Kernel, Fault> {
         self.check()?;
-        let mut own = self.own();
+        let mut unread = self.unread();
         let kernel = match self.name.as_str() {
             "proposal" => {
                 let Some(Attached::Function(function)) = self.attached(attached) else {
-                    return Err(own.wrong("has no function here"));
+                    return Err(unread.wrong("has no function here"));
                 };
                 Kernel::Leaf(Proposer::Proposal(function.clone()))
             }
             "guided" => {
                 let Some(Attached::Guide(guide)) = self.attached(attached) else {
-                    return Err(own.wrong("has no guide here"));
+                    return Err(unread.wrong("has no guide here"));
                 };
                 Kernel::guided(guide.clone())
             }
-            "cycle" => Kernel::Cycle(own.parts(attached)?),
+            "cycle" => Kernel::Cycle(unread.parts(attached)?),
             "mixture" => {
-                let (weights, parts) = (own.take::<Vec<f64>>("weights")?, own.parts(attached)?);
+                let (weights, parts) = (unread.take::<Vec<f64>>("weights")?, unread.parts(attached)?);
                 if weights.len() != parts.len() {
-                    return Err(own.wrong("needs a weight for each part"));
+                    return Err(unread.wrong("needs a weight for each part"));
                 }
                 Kernel::Mixture(weights.into_iter().zip(parts).collect())
             }
-            "repeat" => Kernel::Repeat(own.take("times")?, Box::new(own.part(attached)?)),
+            "repeat" => Kernel::Repeat(unread.take("times")?, Box::new(unread.part(attached)?)),
             "on" => {
                 let selection = Selection {
-                    sites: own.take("sites")?,
-                    depth: own.take("depth")?,
-                    weights: own.take("weights")?,
-                    calls: own.take("calls")?,
+                    sites: unread.take("sites")?,
+                    depth: unread.take("depth")?,
+                    weights: unread.take("weights")?,
+                    calls: unread.take("calls")?,
                 };
-                Kernel::On(selection, Box::new(own.part(attached)?))
+                Kernel::On(selection, Box::new(unread.part(attached)?))
             }
             "anneal" => Kernel::Anneal {
-                start: own.take("start")?,
-                end: own.take("end")?,
-                steps: own.take("steps")?,
-                kernel: Box::new(own.part(attached)?),
+                start: unread.take("start")?,
+                end: unread.take("end")?,
+                steps: unread.take("steps")?,
+                kernel: Box::new(unread.part(attached)?),
             },
-            "tempering" => return Err(own.wrong("can only be outermost")),
+            "tempering" => return Err(unread.wrong("can only be outermost")),
             name => {
-                let settings = Value::Object(std::mem::take(&mut own.left));
+                let settings = Value::Object(std::mem::take(&mut unread.left));
                 let leaf = Kernel::leaf(name, settings);
-                let leaf = leaf.map_err(|what| own.wrong(&format!("cannot be read: {what}")))?;
+                let leaf = leaf.map_err(|reason| unread.wrong(&format!("cannot be read: {reason}")))?;
                 match (self.function, self.attached(attached)) {
                     (None, _) => leaf,
                     (Some(_), Some(Attached::Guide(guide))) if name == "regrow" => {
                         leaf.drawn_by(Arc::new(Kernel::guided(guide.clone()).proposal()?))
                     }
-                    (Some(_), _) => return Err(own.wrong("has no guide here")),
+                    (Some(_), _) => return Err(unread.wrong("has no guide here")),
                 }
             }
         };
-        own.end(kernel)
+        unread.end(kernel)
     }
 
     fn attached<'a>(&self, attached: &'a [Attached]) -> Option<&'a Attached> {
         self.function.and_then(|number| attached.get(number))
     }
 
-    fn own(&self) -> Unread<'_> {
+    fn unread(&self) -> Unread<'_> {
         Unread { form: self, left: self.settings.clone() }
     }
 }
@@ -193,7 +193,7 @@ impl Kernel {
                 proposal.add_guide(selection.clone(), guide.guide.clone());
                 Ok(())
             }
-            Kernel::On(own, inner) if own.is_by_pattern() => inner.add_to(proposal, &selection.and(own)),
+            Kernel::On(patterns, inner) if patterns.is_by_pattern() => inner.add_to(proposal, &selection.and(patterns)),
             Kernel::Cycle(parts) => parts.iter().try_for_each(|part| part.add_to(proposal, selection)),
             _ => Err(Fault::new("bad-proposal", "a run that begins cannot be proposed by this kernel")
                 .with_help(
@@ -209,8 +209,8 @@ impl Kernel {
 
     /// Regrowth whose values a proposal draws; any other kernel is as before.
     pub fn drawn_by(mut self, proposal: Arc<Proposal>) -> Kernel {
-        if let Kernel::Leaf(Proposer::Regrow(own)) = &mut self {
-            own.draw_by(proposal);
+        if let Kernel::Leaf(Proposer::Regrow(regrow)) = &mut self {
+            regrow.draw_by(proposal);
         }
         self
     }
@@ -231,8 +231,8 @@ struct Unread<'a> {
 }
 
 impl Unread<'_> {
-    fn wrong(&self, what: &str) -> Fault {
-        Fault::new("bad-kernel", format!("the kernel `{}` {what}", self.form.name))
+    fn wrong(&self, problem: &str) -> Fault {
+        Fault::new("bad-kernel", format!("the kernel `{}` {problem}", self.form.name))
             .with_help("see `niwaki.kernels`")
     }
 

@@ -35,10 +35,10 @@ impl Pace {
     /// Run up to that number of proposals, and reduce the number if they took long.
     fn keep<T>(&mut self, make: impl FnOnce(u64) -> T) -> T {
         let began = Instant::now();
-        let made = make(self.0);
+        let answer = make(self.0);
         let time = began.elapsed();
         self.0 = if time > TIME { (self.0 / 2).max(1) } else { (2 * self.0).min(BLOCK) };
-        made
+        answer
     }
 }
 
@@ -83,7 +83,9 @@ impl Ladder {
     ) -> Result<Ladder, Failure> {
         let mut ladder = Ladder::without_rungs(settings, number);
         for rung in 0..settings.powers.len() {
-            ladder.add(rung, settings, |own, number| Chain::start(task, own, number, known(rung)))?;
+            ladder.add(rung, settings, |rung_settings, number| {
+                Chain::start(task, rung_settings, number, known(rung))
+            })?;
         }
         Ok(ladder)
     }
@@ -111,11 +113,11 @@ impl Ladder {
         settings: &Settings,
         make: impl FnOnce(&Settings, u64) -> Result<Chain, Failure>,
     ) -> Result<(), Failure> {
-        let mut own = settings.clone();
+        let mut rung_settings = settings.clone();
         if rung > 0 {
-            own.thin = 0;
+            rung_settings.thin = 0;
         }
-        let mut chain = make(&own, self.number + rung as u64 * APART)?;
+        let mut chain = make(&rung_settings, self.number + rung as u64 * APART)?;
         chain.beta = settings.powers[rung];
         self.rungs.push(chain);
         Ok(())
@@ -132,7 +134,7 @@ impl Ladder {
         watch: &mut dyn FnMut(u64, f64) -> bool,
     ) -> Result<(), Failure> {
         self.end = self.visit() + steps;
-        self.go_on(task, &mut |own| watch(own.visit(), own.best_score()))
+        self.go_on(task, &mut |ladder| watch(ladder.visit(), ladder.best_score()))
     }
 
     /// Makes the proposals that are left. `watch` is called at borders, between two proposals; when it returns false, the

@@ -54,13 +54,13 @@ impl Chains {
     ) -> Result<Chains, Failure> {
         let task = &task.shared_by(count);
         let chains = (0..count as u64).into_par_iter().map(|number| {
-            if let Some(stored) = checkpoint.map_or(Ok(None), |own| own.left(number))? {
+            if let Some(stored) = checkpoint.map_or(Ok(None), |checkpoint| checkpoint.left(number))? {
                 return Ladder::restored(task, settings, number, stored);
             }
             // Counted apart, so that a chain is stored with its own count.
-            let own = task.uncounted();
-            let mut ladder = Ladder::start(&own, settings, number, known)?;
-            ladder.invalid = own.invalid.counts();
+            let uncounted = task.uncounted();
+            let mut ladder = Ladder::start(&uncounted, settings, number, known)?;
+            ladder.invalid = uncounted.invalid.counts();
             Ok(ladder)
         });
         let chains: Vec<Ladder> = chains.collect::<Result<_, _>>()?;
@@ -108,10 +108,10 @@ impl Chains {
     ) -> Result<bool, Failure> {
         let store = |number: usize, chain: &Ladder| {
             let content = || chain.stored(&task.program, chain.invalid.clone());
-            checkpoint.inspect(|own| own.store(number as u64, content));
+            checkpoint.inspect(|storage| storage.store(number as u64, content));
         };
-        let begun = self.chains.iter().enumerate().filter(|(_, chain)| chain.visit() > 0);
-        begun.for_each(|(number, chain)| store(number, chain));
+        let started = self.chains.iter().enumerate().filter(|(_, chain)| chain.visit() > 0);
+        started.for_each(|(number, chain)| store(number, chain));
         let each: Vec<(u64, f64)> = self.chains.iter().map(|c| (c.visit(), c.best_score())).collect();
         let progress = Mutex::new((each, false));
         let task = &task.shared_by(self.chains.len());
@@ -119,11 +119,11 @@ impl Chains {
             .par_iter_mut()
             .enumerate()
             .map(|(i, chain)| {
-                let (own, before) = (task.uncounted(), std::mem::take(&mut chain.invalid));
-                own.invalid.add(before.iter().cloned());
-                let done = chain.go_on(&own, &mut |chain| {
+                let (uncounted, before) = (task.uncounted(), std::mem::take(&mut chain.invalid));
+                uncounted.invalid.add(before.iter().cloned());
+                let done = chain.go_on(&uncounted, &mut |chain| {
                     if let Some(checkpoint) = checkpoint {
-                        let content = || chain.stored(&task.program, own.invalid.counts());
+                        let content = || chain.stored(&task.program, uncounted.invalid.counts());
                         checkpoint.at_border(i as u64, content);
                     }
                     let mut progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
@@ -134,7 +134,7 @@ impl Chains {
                     progress.1 |= !go_on;
                     go_on
                 });
-                chain.invalid = own.invalid.counts();
+                chain.invalid = uncounted.invalid.counts();
                 task.invalid.add(more(chain.invalid.clone(), &before));
                 done.inspect(|()| store(i, chain))
             })

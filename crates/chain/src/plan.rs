@@ -40,18 +40,18 @@ pub(crate) struct Stored {
 /// A kernel ready to run.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// What proposes, in the order of the kernel.
+    /// The leaves, in the order of the kernel.
     pub leaves: Vec<Leaf>,
     branches: Vec<Branch>,
     root: usize,
-    /// Of a mixture of leaves alone: cumulative weights, and the leaves.
+    /// The cumulative weights and the leaves, if the kernel is a mixture of leaves alone.
     flat: Option<(Vec<f64>, Vec<usize>)>,
     /// Branches that are being applied, each with the number of applications begun inside.
     cursor: Vec<(usize, u64)>,
 }
 
-fn bad(what: &str) -> Failure {
-    Fault::new("bad-kernel", format!("this kernel {what}")).with_help("see `niwaki.kernels`").into()
+fn bad(problem: &str) -> Failure {
+    Fault::new("bad-kernel", format!("this kernel {problem}")).with_help("see `niwaki.kernels`").into()
 }
 
 /// A place by cumulative weights.
@@ -129,15 +129,15 @@ impl Plan {
         Ok(())
     }
 
-    /// Where it is, and what its leaves have learnt.
+    /// The place in the plan and the adaptation of its leaves, as data.
     pub(crate) fn stored(&self) -> Stored {
-        let begun = |branch: &Branch| match branch {
+        let progress = |branch: &Branch| match branch {
             Branch::Anneal { done, .. } => *done,
             _ => 0,
         };
         Stored {
             cursor: self.cursor.clone(),
-            annealed: self.branches.iter().map(begun).collect(),
+            annealed: self.branches.iter().map(progress).collect(),
             learnt: self.leaves.iter().map(|leaf| leaf.proposer.learnt()).collect(),
         }
     }
@@ -154,7 +154,7 @@ impl Plan {
                 *done = before;
             }
         }
-        self.leaves.iter_mut().zip(stored.learnt).all(|(leaf, learnt)| leaf.proposer.know(learnt))
+        self.leaves.iter_mut().zip(stored.learnt).all(|(leaf, learnt)| leaf.proposer.restore(learnt))
     }
 
     /// The leaves that follow the gradient.
@@ -181,7 +181,7 @@ impl Plan {
     /// The next leaf of any plan.
     fn next_of_any(&mut self, rng: &mut Stream) -> (usize, f64) {
         loop {
-            let Some((branch, begun)) = self.cursor.last_mut() else {
+            let Some((branch, turn)) = self.cursor.last_mut() else {
                 self.cursor.push((self.root, 0));
                 continue;
             };
@@ -191,12 +191,12 @@ impl Plan {
                     self.cursor.pop();
                     return (leaf, self.power());
                 }
-                Branch::Cycle(inner) => inner.get(*begun as usize).copied(),
-                Branch::Repeat(times, inner) => (*begun < *times).then_some(*inner),
-                Branch::Mixture(sums, inner) => (*begun == 0).then(|| inner[picked(sums, rng)]),
-                Branch::Anneal { inner, .. } => (*begun == 0).then_some(*inner),
+                Branch::Cycle(inner) => inner.get(*turn as usize).copied(),
+                Branch::Repeat(times, inner) => (*turn < *times).then_some(*inner),
+                Branch::Mixture(sums, inner) => (*turn == 0).then(|| inner[picked(sums, rng)]),
+                Branch::Anneal { inner, .. } => (*turn == 0).then_some(*inner),
             };
-            *begun += 1;
+            *turn += 1;
             match inner {
                 Some(inner) => self.cursor.push((inner, 0)),
                 None => {

@@ -152,7 +152,9 @@ impl Ladder {
             return Err(unfit("it is of chains at other powers"));
         }
         for (rung, stored) in rungs.into_iter().enumerate() {
-            ladder.add(rung, settings, |own, number| Chain::restored(task, own, number, stored))?;
+            ladder.add(rung, settings, |rung_settings, number| {
+                Chain::restored(task, rung_settings, number, stored)
+            })?;
         }
         (ladder.exchanges, ladder.end, ladder.invalid) = (exchanges, end, invalid);
         Ok(ladder)

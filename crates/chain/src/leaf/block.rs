@@ -97,14 +97,14 @@ impl Walk {
                 continue;
             }
             let address = trace.address(program, choice);
-            let mut own = key.at(address);
-            if own.uniform() >= block.share {
+            let mut stream = key.at(address);
+            if stream.uniform() >= block.share {
                 continue;
             }
             let Some(family) = trace.family(choice) else { continue };
             let spread = self.spreads[self.counts.number(trace.site_of(choice))];
             let old = trace.choice(program, choice).0;
-            if let Some(proposed) = step(family, old, size * spread, &mut own) {
+            if let Some(proposed) = step(family, old, size * spread, &mut stream) {
                 moved.push((address, old.clone()));
                 changes.push(Changed { choice, proposed });
             }
@@ -116,7 +116,7 @@ impl Walk {
         };
         let decision = self.decide(task, change, beta, &mut rng, |_| 0.0, moved)?;
         self.count_many(decision);
-        if self.warming(visit).is_some() && !decision.same {
+        if self.warming(visit).is_some() && !decision.is_same {
             block.step.adapt(decision, block.target);
         }
         Ok(())

@@ -40,7 +40,7 @@ impl Drift {
     }
 
     /// Restore an adaptation.
-    pub(crate) fn know(&mut self, steps: &[Learnt]) {
+    pub(crate) fn restore(&mut self, steps: &[Learnt]) {
         self.steps = steps.iter().map(|step| Step::known(*step)).collect();
     }
 

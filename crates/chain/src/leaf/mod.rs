@@ -84,37 +84,41 @@ impl Proposer {
     pub fn apply(&mut self, target: &mut impl Target) -> Result<(), Failure> {
         match self {
             Proposer::Prior {} => target.single(&mut FromPrior),
-            Proposer::Drift(own) => target.single(&mut **own),
-            Proposer::Neighbour(own) => target.single(own),
+            Proposer::Drift(drift) => target.single(&mut **drift),
+            Proposer::Neighbour(neighbour) => target.single(neighbour),
             Proposer::ByFamily {} => target.single(&mut ByFamily),
-            Proposer::Block(own) => target.block(own),
-            Proposer::Regenerate(own) => target.kept(own),
-            Proposer::Regrow(own) => target.kept(&mut **own),
-            Proposer::HmcStep(own) | Proposer::NutsStep(own) => target.kept(&mut **own),
-            Proposer::Proposal(own) => target.single(&mut UserMove(own)),
-            Proposer::Guided(own) => target.kept(&mut **own),
+            Proposer::Block(block) => target.block(block),
+            Proposer::Regenerate(regenerate) => target.kept(regenerate),
+            Proposer::Regrow(regrow) => target.kept(&mut **regrow),
+            Proposer::HmcStep(trajectory) | Proposer::NutsStep(trajectory) => target.kept(&mut **trajectory),
+            Proposer::Proposal(proposal) => target.single(&mut UserMove(proposal)),
+            Proposer::Guided(guided) => target.kept(&mut **guided),
         }
     }
 
     /// The adaptation so far, as data.
     pub(crate) fn learnt(&self) -> Learnt {
         match self {
-            Proposer::Drift(own) => Learnt::Steps(own.learnt()),
-            Proposer::Block(own) => Learnt::Steps(vec![own.step.learnt()]),
-            Proposer::HmcStep(own) | Proposer::NutsStep(own) => Learnt::Travels(Box::new(own.learnt())),
-            _ => Learnt::Nothing,
+            Proposer::Drift(drift) => Learnt::Steps(drift.learnt()),
+            Proposer::Block(block) => Learnt::Steps(vec![block.step.learnt()]),
+            Proposer::HmcStep(trajectory) | Proposer::NutsStep(trajectory) => {
+                Learnt::Travels(Box::new(trajectory.learnt()))
+            }
+            _ => Learnt::Unadapted,
         }
     }
 
     /// Restore an adaptation; return false if it belongs to another kind of leaf.
-    pub(crate) fn know(&mut self, learnt: Learnt) -> bool {
+    pub(crate) fn restore(&mut self, learnt: Learnt) -> bool {
         match (self, learnt) {
-            (Proposer::Drift(own), Learnt::Steps(steps)) => own.know(&steps),
-            (Proposer::Block(own), Learnt::Steps(steps)) if steps.len() == 1 => {
-                own.step = Step::known(steps[0])
+            (Proposer::Drift(drift), Learnt::Steps(steps)) => drift.restore(&steps),
+            (Proposer::Block(block), Learnt::Steps(steps)) if steps.len() == 1 => {
+                block.step = Step::known(steps[0])
             }
-            (Proposer::HmcStep(own) | Proposer::NutsStep(own), Learnt::Travels(learnt)) => own.know(*learnt),
-            (_, Learnt::Nothing) => {}
+            (Proposer::HmcStep(trajectory) | Proposer::NutsStep(trajectory), Learnt::Travels(learnt)) => {
+                trajectory.restore(*learnt)
+            }
+            (_, Learnt::Unadapted) => {}
             _ => return false,
         }
         true
@@ -123,8 +127,8 @@ impl Proposer {
     /// Whether the leaf uses the scene.
     pub(crate) fn looks(&self) -> bool {
         match self {
-            Proposer::Guided(own) => own.guide.looks(),
-            Proposer::Regrow(own) => own.looks(),
+            Proposer::Guided(guided) => guided.guide.looks(),
+            Proposer::Regrow(regrow) => regrow.looks(),
             _ => false,
         }
     }
@@ -132,7 +136,7 @@ impl Proposer {
     /// The trajectories of a gradient leaf.
     pub fn trajectory(&self) -> Option<&Trajectory> {
         match self {
-            Proposer::HmcStep(own) | Proposer::NutsStep(own) => Some(own),
+            Proposer::HmcStep(trajectory) | Proposer::NutsStep(trajectory) => Some(trajectory),
             _ => None,
         }
     }
@@ -142,7 +146,8 @@ impl Proposer {
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) enum Learnt {
     /// No adaptation.
-    Nothing,
+    #[serde(rename = "Nothing")]
+    Unadapted,
     /// Step sizes.
     Steps(Vec<crate::leaf::drift::Learnt>),
     /// The scales of trajectories.
@@ -181,8 +186,8 @@ impl Leaf {
     /// Sketches, which have no gradient for a trajectory; invalid settings.
     pub fn prepare(&mut self, task: &Task) -> Result<(), Failure> {
         match &mut self.proposer {
-            Proposer::HmcStep(own) | Proposer::NutsStep(own) => own.prepare(task),
-            Proposer::Regrow(own) => own.prepare(&self.selection),
+            Proposer::HmcStep(trajectory) | Proposer::NutsStep(trajectory) => trajectory.prepare(task),
+            Proposer::Regrow(regrow) => regrow.prepare(&self.selection),
             _ => Ok(()),
         }
     }

@@ -61,11 +61,11 @@ impl Move for Neighbour {
 /// Flip one of the truth values.
 fn flipped(all: &[Value], rng: &mut Stream) -> Option<Value> {
     let at = crate::walk::streams::below(rng, all.len() as u64) as usize;
-    let one = |(i, x): (usize, &Value)| match x {
+    let flipped_value = |(i, x): (usize, &Value)| match x {
         Value::Bool(b) => Some(Value::Bool(*b != (i == at))),
         _ => None,
     };
-    all.iter().enumerate().map(one).collect::<Option<_>>().map(Value::tuple)
+    all.iter().enumerate().map(flipped_value).collect::<Option<_>>().map(Value::tuple)
 }
 
 /// Move up to `reach` units between two counts.
@@ -78,13 +78,13 @@ fn shifted(all: &[Value], reach: u64, rng: &mut Stream) -> Option<Value> {
     let other = crate::walk::streams::below(rng, n - 1);
     let to = other + u64::from(other >= from);
     let by = (crate::walk::streams::below(rng, reach) + 1) as i64;
-    let one = |(i, x): (u64, &Value)| match x {
+    let shifted_count = |(i, x): (u64, &Value)| match x {
         Value::Int(k) if i == from => Some(Value::Int(k.saturating_sub(by))),
         Value::Int(k) if i == to => Some(Value::Int(k.saturating_add(by))),
         Value::Int(k) => Some(Value::Int(*k)),
         _ => None,
     };
-    (0..).zip(all).map(one).collect::<Option<_>>().map(Value::tuple)
+    (0..).zip(all).map(shifted_count).collect::<Option<_>>().map(Value::tuple)
 }
 
 /// Draw a different whole number within `reach`.

@@ -82,7 +82,7 @@ pub fn accepts(log_ratio: f64, rng: &mut impl RngCore) -> bool {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Decision {
     /// Whether the proposal was equal to the present state.
-    pub same: bool,
+    pub is_same: bool,
     /// Whether the proposal was accepted.
     pub accepted: bool,
     /// Log of the acceptance ratio; minus infinity for an impossible proposal.

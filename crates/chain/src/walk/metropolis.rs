@@ -71,7 +71,7 @@ impl Walk {
         count.proposed += 1;
         count.accepted += u64::from(decision.accepted);
         count.outside += u64::from(outside);
-        if self.warming(visit).is_some() && !decision.same {
+        if self.warming(visit).is_some() && !decision.is_same {
             proposer.learn(site, decision);
         }
         Ok(())
@@ -117,12 +117,12 @@ impl Walk {
         match change {
             Change::Unchanged => {
                 self.state.trace.commit(program);
-                self.last = Decision { same: true, accepted: true, log_ratio: 0.0 };
+                self.last = Decision { is_same: true, accepted: true, log_ratio: 0.0 };
                 return Ok(self.last);
             }
             Change::Impossible => {
                 self.state.trace.rollback(program);
-                self.last = Decision { same: false, accepted: false, log_ratio: f64::NEG_INFINITY };
+                self.last = Decision { is_same: false, accepted: false, log_ratio: f64::NEG_INFINITY };
                 return Ok(self.last);
             }
             Change::Done => {}
@@ -153,7 +153,7 @@ impl Walk {
             self.state.restore_sketches();
             self.state.trace.rollback(program);
         }
-        self.last = Decision { same: false, accepted, log_ratio };
+        self.last = Decision { is_same: false, accepted, log_ratio };
         Ok(self.last)
     }
 

@@ -82,7 +82,7 @@ impl State {
             let (key, mut spreads) = (streams.fresh(u64::MAX - attempt), HashMap::new());
             let mut answers = Fresh { spreads: Some(&mut spreads), ..Fresh::of(key, known, &*task.hosts) };
             let (trace, change) = match task.begin(&mut machine, &mut answers) {
-                Ok(begun) => begun,
+                Ok(start) => start,
                 Err(met) => {
                     let Some(place) = task.invalid.count(&met) else { return Err(met.into()) };
                     *causes.entry(place.to_string()).or_default() += 1;
@@ -201,12 +201,12 @@ impl State {
     #[inline]
     pub fn update_sketches(&mut self) -> Result<(), Failure> {
         (self.primitives_before, self.before) = (self.primitives, None);
-        let (gone, come) = (self.trace.retracted().count(), self.trace.emitted().count());
-        if gone + come == 0 && self.primitives > 0 {
+        let (removed, added) = (self.trace.retracted().count(), self.trace.emitted().count());
+        if removed + added == 0 && self.primitives > 0 {
             return Ok(());
         }
-        self.primitives = self.primitives + come - gone;
-        self.moved += (gone + come) as u64;
+        self.primitives = self.primitives + added - removed;
+        self.moved += (removed + added) as u64;
         if self.sketches.is_empty() {
             return Ok(());
         }

@@ -19,7 +19,7 @@ pub struct Streams {
 impl Streams {
     /// The streams of the `chain`-th chain of a seed.
     pub fn new(seed: u64, chain: u64) -> Streams {
-        let key = |which| StreamKey::new(seed, chain.wrapping_mul(STREAMS).wrapping_add(which), 0);
+        let key = |number| StreamKey::new(seed, chain.wrapping_mul(STREAMS).wrapping_add(number), 0);
         Streams { fresh: key(0), moves: key(1), decisions: key(2), schedule: key(3) }
     }
 
@@ -54,7 +54,7 @@ impl Streams {
 pub(crate) struct Ahead {
     /// The number of the first of these proposals.
     from: u64,
-    made: Vec<Decisions>,
+    ready: Vec<Decisions>,
 }
 
 /// The random numbers of a proposal.
@@ -86,11 +86,11 @@ impl Ahead {
     #[inline(always)]
     pub fn of(&mut self, streams: &Streams, visit: u64, guess: impl Fn(u64) -> u128) -> &Decisions {
         let mut lane = visit.wrapping_sub(self.from);
-        if lane >= self.made.len() as u64 {
+        if lane >= self.ready.len() as u64 {
             lane = 0;
             self.make(streams, visit, guess);
         }
-        &self.made[lane as usize]
+        &self.ready[lane as usize]
     }
 
     #[inline(never)]
@@ -108,9 +108,9 @@ impl Ahead {
             addresses[lane] = guess(decisions[lane].first());
         }
         let moves = eight(moving, addresses);
-        self.made.clear();
+        self.ready.clear();
         let both = decisions.into_iter().zip(moves);
-        self.made.extend(both.map(|(decisions, moves)| Decisions { decisions, moves }));
+        self.ready.extend(both.map(|(decisions, moves)| Decisions { decisions, moves }));
     }
 }
 

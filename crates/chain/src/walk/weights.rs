@@ -1,7 +1,7 @@
 //! Selection weights: the probability of picking a choice for a proposal is proportional to its weight.
 //!
-//! Weights are whole numbers (in units of [`UNIT`](niwaki_run::select::UNIT)), so that their sums are exact for any births and deaths, and a tree of
-//! partial sums (Fenwick 1994) finds, adds and drops a choice in O(log n).
+//! Weights are whole numbers (in units of [`UNIT`](niwaki_run::select::UNIT)), so that their sums are exact for any births and deaths.
+//! A tree of partial sums (Fenwick 1994) finds, adds and drops a choice in O(log n).
 
 use niwaki_run::select::Selection;
 use niwaki_vm::code::Program;
@@ -157,8 +157,8 @@ fn lowest_bit(i: usize) -> usize {
 mod tests {
     use super::*;
 
-    struct Same;
-    impl Weigh for Same {
+    struct Constant;
+    impl Weigh for Constant {
         fn weight(&self, _: &Place<'_, f64>) -> u64 {
             1
         }
@@ -166,7 +166,8 @@ mod tests {
 
     #[test]
     fn find_agrees_with_a_linear_search() {
-        let mut table = Table { weigh: Box::new(Same), weights: vec![], sums: vec![], total: 0, alike: None };
+        let mut table =
+            Table { weigh: Box::new(Constant), weights: vec![], sums: vec![], total: 0, alike: None };
         let mut state = 1u64;
         let mut next = |n: u64| {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -189,8 +190,8 @@ mod tests {
                 }
                 for alike in [table.all_alike(), None] {
                     table.alike = alike;
-                    let found: Vec<usize> = (0..table.total).map(|at| table.find(at)).collect();
-                    assert_eq!(found, expected);
+                    let picks: Vec<usize> = (0..table.total).map(|at| table.find(at)).collect();
+                    assert_eq!(picks, expected);
                 }
             }
         }

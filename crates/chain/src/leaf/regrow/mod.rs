@@ -139,7 +139,7 @@ impl Contents {
     ) -> Option<(Contents, Sketches)> {
         let trace = &state.trace;
         let mut contents = Contents { held: HashMap::new(), rest: HashMap::new(), numbers: vec![] };
-        let mut gone = vec![];
+        let mut removed = vec![];
         trace.all_pieces(program, part, |piece| match piece {
             Piece::Choice(n) => {
                 let (address, value) = (trace.address(program, n), trace.choice(program, n).0.clone());
@@ -150,12 +150,12 @@ impl Contents {
                     contents.rest.insert(address, value);
                 }
             }
-            Piece::Emit(primitive) => gone.push(primitive),
+            Piece::Emit(primitive) => removed.push(primitive),
             Piece::Part(_) | Piece::Held(_) => {}
         });
         let mut sketches = state.sketches.fork();
-        if !gone.is_empty() {
-            let kept = sketches.exchange(gone.iter().copied(), std::iter::empty());
+        if !removed.is_empty() {
+            let kept = sketches.exchange(removed.iter().copied(), std::iter::empty());
             debug_assert!(kept, "the sketches and the trace hold the same scene");
         }
         sketches.forbidden_by().is_none().then_some((contents, sketches))
@@ -170,8 +170,8 @@ fn refuse_memoised(program: &Program) -> Result<(), Failure> {
     if !program.memoises() {
         return Ok(());
     }
-    let what = "the parts of a model with memoised functions cannot be grown again";
-    Err(Fault::new("memo-regrow", what).into())
+    let problem = "the parts of a model with memoised functions cannot be grown again";
+    Err(Fault::new("memo-regrow", problem).into())
 }
 
 impl ChainMove for Regrow {
@@ -192,7 +192,7 @@ impl ChainMove for Regrow {
             return Ok(());
         };
         let moves = chain.streams.moves(visit);
-        let seed = |which: u128| moves.at(which).next_u64();
+        let seed = |purpose: u128| moves.at(purpose).next_u64();
         let mut start = trace.start_part(program, picked.part, kernel.needs_paths());
         if kernel.looks() {
             trace.note_parts(program, picked.part, &mut start);
@@ -238,7 +238,7 @@ impl ChainMove for Regrow {
             && values
                 .iter()
                 .all(|(address, value)| held.get(address).is_some_and(|old| identical(old, value)));
-        chain.last = Decision { same: is_same, accepted: !is_same, log_ratio };
+        chain.last = Decision { is_same, accepted: !is_same, log_ratio };
         chain.count_many(chain.last);
         if is_same {
             return Ok(());
@@ -271,11 +271,11 @@ impl Weighing<'_> {
     /// guide sees, in that scene: a kernel that changed it would have to come back by another one, and would be biased.
     fn keeps_scene(&self, trace: &Trace) -> bool {
         let Some(before) = &self.emits else { return true };
-        let (gone, come) = trace.exchanged();
+        let (removed, added) = trace.exchanged();
         let inside =
             |numbers: &[u32], all: &[u32]| numbers.iter().all(|number| all.binary_search(number).is_ok());
-        inside(gone, before)
-            && (come.is_empty() || inside(come, &trace.emits_of(&self.task.program, self.picked.part)))
+        inside(removed, before)
+            && (added.is_empty() || inside(added, &trace.emits_of(&self.task.program, self.picked.part)))
     }
 }
 
@@ -320,7 +320,7 @@ impl Walk {
         let is_possible = !self.state.trace.change().is_impossible() && !gain.is_impossible();
         let log_ratio = block.beta * gain.value();
         let accepted = is_possible && accepts(log_ratio, rng);
-        self.last = Decision { same: false, accepted, log_ratio };
+        self.last = Decision { is_same: false, accepted, log_ratio };
         self.count_many(self.last);
         if accepted {
             self.keep(program, block.held.clone());
@@ -363,9 +363,9 @@ impl Walk {
         Ok(())
     }
 
-    /// What the rest of the run adds to the log weight of a particle that returned another value: the change of the
-    /// densities of held choices and of the score, beyond that of the part itself. `score` is that of the part with the
-    /// present values.
+    /// Add the contribution of the rest of the run to the log weight of a particle that returned another value: the change
+    /// of the densities of held choices and of the score, beyond that of the part itself. `score` is that of the part with
+    /// the present values.
     fn answer(
         &mut self,
         machine: &mut Machine<'_>,

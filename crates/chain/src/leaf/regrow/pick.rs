@@ -1,8 +1,8 @@
 //! The pick of a part for regrowth, and its probability in another run.
 //!
 //! By size: a part that matters may be a single choice among hundreds, and most of the others may be small and far down.
-//! So the size is drawn first, evenly over its logarithm, and the run is descended from the whole to parts below, by the
-//! square roots of their sizes, until a part is as small as that. A part that could not have been reached, because it is
+//! So the size is drawn first, evenly over its logarithm. Then the pick descends from the whole run to parts below, by the
+//! square roots of their sizes, until a part is at most as large as the drawn size. A part that could not have been reached, because it is
 //! empty or always larger, has probability zero.
 //!
 //! ```text
@@ -123,9 +123,9 @@ impl Pick {
                     if u >= below(*size, all) || sum == 0.0 {
                         return Some(Picked { part: *part, size: *size, how: How::Size(levels) });
                     }
-                    let which = index(&roots, rng.uniform());
-                    at = inner.start + which;
-                    levels.push(Level { size: parts[at].size, beside: sum - roots[which] });
+                    let number = index(&roots, rng.uniform());
+                    at = inner.start + number;
+                    levels.push(Level { size: parts[at].size, beside: sum - roots[number] });
                 }
             }
         }
@@ -205,13 +205,13 @@ fn sizes(trace: &Trace, program: &Program, is_selected: &dyn Fn(usize) -> bool) 
     let mut parts = vec![Sized { part: Part::WHOLE, size: 0, below: 0..0 }];
     let mut at = 0;
     while at < parts.len() {
-        let (mut own, first) = (0, parts.len());
+        let (mut choices, first) = (0, parts.len());
         trace.pieces(program, parts[at].part, |piece| match piece {
-            Piece::Choice(n) => own += u64::from(is_selected(n)),
+            Piece::Choice(n) => choices += u64::from(is_selected(n)),
             Piece::Part(part) => parts.push(Sized { part, size: 0, below: 0..0 }),
             Piece::Emit(_) | Piece::Held(_) => {}
         });
-        parts[at].size = own;
+        parts[at].size = choices;
         parts[at].below = first..parts.len();
         at += 1;
     }

@@ -105,7 +105,7 @@ impl Chooser for Grow<'_> {
             self.seen.rest += 1;
             return Chosen::given(value.clone(), dist).map(Some);
         }
-        let turned = self.turned.filter(|(which, ..)| *which == address);
+        let turned = self.turned.filter(|(turned_address, ..)| *turned_address == address);
         let chosen = match (turned, self.held.and_then(|held| held.get(&address))) {
             (Some((_, value, _)), _) => Chosen::given(value.clone(), dist)?,
             (None, Some(value)) => as_if_drawn(self.block.proposal, at, dist, value, seen, self.sight)?,
@@ -151,8 +151,9 @@ impl Grown {
     /// The choices that may change.
     pub fn values(&self, block: &Block<'_>) -> HashMap<u128, Value> {
         let entries = self.particle.record.log.entries();
-        let own = entries.into_iter().filter(|e| !e.is_order() && !block.rest.contains_key(&e.address()));
-        own.map(|entry| (entry.address(), entry.value)).collect()
+        let selected =
+            entries.into_iter().filter(|e| !e.is_order() && !block.rest.contains_key(&e.address()));
+        selected.map(|entry| (entry.address(), entry.value)).collect()
     }
 
     fn copy_from(&mut self, parent: &mut Grown, lineage: u64, seed: u64) {

@@ -46,7 +46,7 @@ pub struct Trajectory {
     pub(crate) counts: TrajectoryCounts,
 }
 
-/// What trajectories have learnt, as data.
+/// The adaptation of trajectories, as data.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct Learnt {
     scales: scales::Stored,
@@ -133,14 +133,14 @@ impl Trajectory {
         Ok(())
     }
 
-    /// What it has learnt and counted.
+    /// The adaptation and the counts so far, as data.
     pub(crate) fn learnt(&self) -> Learnt {
         let (counts, recorded) = (self.counts.clone(), self.recorded());
         Learnt { scales: self.scales.stored(), counts, recorded }
     }
 
-    /// Takes what it had learnt and counted. Graphs are recorded anew, and count again.
-    pub(crate) fn know(&mut self, learnt: Learnt) {
+    /// Restore the adaptation and the counts. Graphs are recorded anew, and count again.
+    pub(crate) fn restore(&mut self, learnt: Learnt) {
         self.scales = Scales::restored(learnt.scales);
         self.counts = learnt.counts;
         self.structures.count_from(learnt.recorded);
@@ -160,15 +160,15 @@ impl Trajectory {
 impl ChainMove for Trajectory {
     /// One transition of the continuous choices that a table gives weight; all of them, where there is none.
     fn apply(&mut self, proposing: Proposing<'_, '_>) -> Result<(), Failure> {
-        let (own, Proposing { chain, task, machine, table, beta }) = (self, proposing);
+        let (leaf, Proposing { chain, task, machine, table, beta }) = (self, proposing);
         let (visit, program) = (chain.visit, &*task.program);
         let warming = chain.warming(visit);
         chain.visit += 1;
-        chain.last = Decision { same: true, accepted: true, log_ratio: 0.0 };
-        own.prepare(task)?;
-        let Some(model) = &own.model else { return Ok(()) };
+        chain.last = Decision { is_same: true, accepted: true, log_ratio: 0.0 };
+        leaf.prepare(task)?;
+        let Some(model) = &leaf.model else { return Ok(()) };
         if warming.is_none() {
-            own.scales.freeze();
+            leaf.scales.freeze();
         }
         // The structure, its graph, and the coordinates of the trace.
         let (trace, tables) = (&chain.state.trace, &chain.tables);
@@ -177,20 +177,20 @@ impl ChainMove for Trajectory {
             let site = chain.counts.number(trace.site_of(number));
             let is_plain = matches!(choice.transform, Transform::Line | Transform::Vector);
             let scale = if is_plain { chain.spreads[site] / choice.unit } else { 1.0 };
-            own.scales.label(site as u32, place as u32, scale)
+            leaf.scales.label(site as u32, place as u32, scale)
         };
-        own.structures.find(model, trace, program, beta, &moves, &mut label)?;
-        let Some(Moving { target, labels, numbers }) = own.structures.present() else { return Ok(()) };
+        leaf.structures.find(model, trace, program, beta, &moves, &mut label)?;
+        let Some(Moving { target, labels, numbers }) = leaf.structures.present() else { return Ok(()) };
         if target.is_still() {
             return Ok(());
         }
-        chain.last = Decision { same: false, accepted: false, log_ratio: f64::NEG_INFINITY };
+        chain.last = Decision { is_same: false, accepted: false, log_ratio: f64::NEG_INFINITY };
         let mut last = chain.streams.moves(visit).at(2);
         let mut phase = match target.start_phase(trace, program, numbers, beta, &mut last) {
             Ok(phase) => phase,
             Err(stop) => {
                 let fault = || reason(target.live(), &target.all(&[]));
-                own.counts.refused(stop, warming.is_some(), fault);
+                leaf.counts.refused(stop, warming.is_some(), fault);
                 chain.count_many(chain.last);
                 return Ok(());
             }
@@ -199,20 +199,20 @@ impl ChainMove for Trajectory {
 
         // From x to x'.
         let (key, dim) = (chain.streams.moves(visit), phase.x.len());
-        let metric = own.scales.metric(labels);
-        if warming.is_some() && own.scales.wants_a_guess() {
-            let guess = first_guess(target, &metric, &phase, own.scales.step(dim), &mut key.at(1));
-            own.scales.guessed(guess, dim);
+        let metric = leaf.scales.metric(labels);
+        if warming.is_some() && leaf.scales.wants_a_guess() {
+            let guess = first_guess(target, &metric, &phase, leaf.scales.step(dim), &mut key.at(1));
+            leaf.scales.guessed(guess, dim);
         }
-        let step = own.scales.step(dim);
-        let transition = own.kernel.step(target, &metric, step, &mut phase, &mut key.at(0));
+        let step = leaf.scales.step(dim);
+        let transition = leaf.kernel.step(target, &metric, step, &mut phase, &mut key.at(0));
         if let Some(share) = warming {
-            own.scales.learn(labels, &phase.gradient, transition.accept, share);
+            leaf.scales.learn(labels, &phase.gradient, transition.accept, share);
         }
         let faulty =
             transition.divergence.as_ref().filter(|d| d.stop.is_some_and(|s| s.cause == Cause::NotFinite));
         let faulty = faulty.map(|divergence| target.all(&divergence.end));
-        own.counts.count(&transition, warming.is_some(), || reason(target.live(), &faulty?));
+        leaf.counts.count(&transition, warming.is_some(), || reason(target.live(), &faulty?));
         chain.last.log_ratio = transition.accept.ln();
         // The last point that was evaluated may be on another path than x'.
         let there = if transition.moved { target.log_density(&phase.x).ok() } else { None };
@@ -241,14 +241,14 @@ impl ChainMove for Trajectory {
         let selection = |chain: &Walk| {
             let trace = &chain.state.trace;
             // New draws are not part of the recorded density: the reverse trajectory would not lead back here.
-            let anew = trace.drawn_anew().iter().any(|(address, _)| own.structures.knows(*address));
+            let anew = trace.drawn_anew().iter().any(|(address, _)| leaf.structures.contains(*address));
             let is_other = trace.births(program).len() > 0 || !trace.deaths().is_empty() || anew;
             if is_other { f64::NEG_INFINITY } else { 0.0 }
         };
         let mut rng = chain.streams.decisions(visit);
         let decision = chain.decide(task, change, beta, &mut rng, selection, moved)?;
-        own.counts.moved += u64::from(decision.accepted);
-        own.counts.unwritten += u64::from(!decision.accepted);
+        leaf.counts.moved += u64::from(decision.accepted);
+        leaf.counts.unwritten += u64::from(!decision.accepted);
         chain.count_many(decision);
         Ok(())
     }

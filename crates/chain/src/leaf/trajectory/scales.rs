@@ -88,7 +88,7 @@ impl Scales {
         Stored { labels: sites.zip(self.labels.iter().cloned()).collect(), steps: self.steps.clone() }
     }
 
-    /// Of their data.
+    /// Restore scales from data.
     pub fn restored(Stored { labels, steps }: Stored) -> Scales {
         let numbers = (0..).zip(&labels).map(|(number, (site, _))| (*site, number)).collect();
         Scales { numbers, labels: labels.into_iter().map(|(_, label)| label).collect(), steps }

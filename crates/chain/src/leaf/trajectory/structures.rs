@@ -125,9 +125,9 @@ impl Structures {
             let Some(oldest) = older.min_by_key(|(_, structure)| structure.last).map(|(key, _)| *key) else {
                 return;
             };
-            if let Some(gone) = self.all.remove(&oldest) {
-                size -= gone.target.live.size();
-                self.dropped += gone.target.live.recordings() as u64;
+            if let Some(removed) = self.all.remove(&oldest) {
+                size -= removed.target.live.size();
+                self.dropped += removed.target.live.recordings() as u64;
             }
         }
     }
@@ -139,7 +139,7 @@ impl Structures {
     }
 
     /// Whether a choice of that address is part of the present structure, but for those of one value.
-    pub fn knows(&self, address: u128) -> bool {
+    pub fn contains(&self, address: u128) -> bool {
         self.all.get(&self.now).is_some_and(|structure| structure.known.contains(&address))
     }
 
