@@ -86,8 +86,8 @@ fn of_sequence<S: Scalar>(value: &Value<S>, name: &str, rest: &[Value<S>]) -> Op
     let [item] = rest else { return None };
     let places = || -> Result<Vec<usize>, Fault> {
         let mut places = Vec::new();
-        for (at, item_) in iter_all(value)?.iter().enumerate() {
-            if equal(item_, item)? {
+        for (at, element) in iter_all(value)?.iter().enumerate() {
+            if equal(element, item)? {
                 places.push(at);
             }
         }
@@ -121,35 +121,35 @@ fn of_dict<S: Scalar>(dict: &Arc<Dict<S>>, name: &str, rest: &[Value<S>]) -> Opt
     }
 }
 
-fn of_text<S: Scalar>(text_: &Text, name: &str, rest: &[Value<S>]) -> Option<Answer<S>> {
+fn of_text<S: Scalar>(string: &Text, name: &str, rest: &[Value<S>]) -> Option<Answer<S>> {
     let strings: Vec<&str> =
         rest.iter().map_while(|arg| if let Value::Str(text) = arg { Some(&**text) } else { None }).collect();
     let list = |parts: Vec<&str>| Ok(Value::list(parts.into_iter().map(Value::str).collect()));
     Some(match (name, &strings[..], rest) {
-        ("upper", _, []) => text(text_.to_uppercase()),
-        ("lower", _, []) => text(text_.to_lowercase()),
-        ("strip", _, [] | [Value::None]) => text(text_.trim().to_string()),
-        ("strip", [chars], [_]) => text(text_.trim_matches(|c| chars.contains(c)).to_string()),
-        ("split", _, [] | [Value::None]) => list(text_.split_whitespace().collect()),
+        ("upper", _, []) => text(string.to_uppercase()),
+        ("lower", _, []) => text(string.to_lowercase()),
+        ("strip", _, [] | [Value::None]) => text(string.trim().to_string()),
+        ("strip", [chars], [_]) => text(string.trim_matches(|c| chars.contains(c)).to_string()),
+        ("split", _, [] | [Value::None]) => list(string.split_whitespace().collect()),
         ("split", [""], [_]) => Err(Fault::bad_argument("`split` with an empty separator")),
-        ("split", [by], [_]) => list(text_.split(by).collect()),
-        ("join", _, [parts]) => joined(text_, parts),
+        ("split", [by], [_]) => list(string.split(by).collect()),
+        ("join", _, [parts]) => joined(string, parts),
         ("replace", [old, new], [_, _]) => {
-            let grown = text_.matches(old).count().saturating_mul(new.len());
-            within_budget(text_.len().saturating_add(grown)).and_then(|()| text(text_.replace(old, new)))
+            let grown = string.matches(old).count().saturating_mul(new.len());
+            within_budget(string.len().saturating_add(grown)).and_then(|()| text(string.replace(old, new)))
         }
-        ("startswith", [start], [_]) => Ok(Value::Bool(text_.starts_with(start))),
-        ("endswith", [end], [_]) => Ok(Value::Bool(text_.ends_with(end))),
+        ("startswith", [start], [_]) => Ok(Value::Bool(string.starts_with(start))),
+        ("endswith", [end], [_]) => Ok(Value::Bool(string.ends_with(end))),
         ("startswith" | "endswith", _, [Value::Tuple(choices)]) => {
             let each =
-                choices.items().iter().map(|choice| of_text(text_, name, std::slice::from_ref(choice)));
+                choices.items().iter().map(|choice| of_text(string, name, std::slice::from_ref(choice)));
             let answers: Option<Result<Vec<Value<S>>, Fault>> = each.collect();
             answers?.map(|answers| Value::Bool(answers.contains(&Value::Bool(true))))
         }
-        ("count", [""], [_]) => Ok(Value::Int(text_.chars_len() as i64 + 1)),
-        ("count", [part], [_]) => Ok(Value::Int(text_.matches(part).count() as i64)),
-        ("index", [part], [_]) => match text_.find(part) {
-            Some(byte) => Ok(Value::Int(text_[..byte].chars().count() as i64)),
+        ("count", [""], [_]) => Ok(Value::Int(string.chars_len() as i64 + 1)),
+        ("count", [part], [_]) => Ok(Value::Int(string.matches(part).count() as i64)),
+        ("index", [part], [_]) => match string.find(part) {
+            Some(byte) => Ok(Value::Int(string[..byte].chars().count() as i64)),
             None => Err(Fault::missing_element(format!("{} is not in the str", print::quoted(part)))),
         },
         ("replace" | "startswith" | "endswith" | "split" | "strip" | "count" | "index", _, [first, ..])

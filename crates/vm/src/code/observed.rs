@@ -194,10 +194,10 @@ mod tests {
 
     #[test]
     fn arguments_and_held_choices_count() {
-        let program_ = program(&format!("(set $n {NORMAL}) (do (observe $d 1)) (return $n)"));
-        assert!(!may_mix(&program_, &[&Value::None], false));
+        let compiled = program(&format!("(set $n {NORMAL}) (do (observe $d 1)) (return $n)"));
+        assert!(!may_mix(&compiled, &[&Value::None], false));
         let counts = Dist::new(Family::Poisson, &[Param::Real(2.0)]).unwrap();
-        assert!(may_mix(&program_, &[&Value::list(vec![Value::Dist(Arc::new(counts))])], false));
+        assert!(may_mix(&compiled, &[&Value::list(vec![Value::Dist(Arc::new(counts))])], false));
 
         let held = program(&format!("(set $x (sample (cond $s {NORMAL} {DELTA})))"));
         assert!(!may_mix(&held, &[&Value::None], false));

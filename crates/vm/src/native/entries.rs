@@ -62,9 +62,8 @@ pub(crate) fn write<'v>(
     if !entry.in_background() {
         return write_now(entry, program, function, contents);
     }
-    let registers_ = registers(program.function(function)).into_iter();
-    let values: HashMap<Reg, Value> =
-        registers_.filter_map(|reg| Some((reg, contents(reg)?.clone()))).collect();
+    let numbers = registers(program.function(function)).into_iter();
+    let values: HashMap<Reg, Value> = numbers.filter_map(|reg| Some((reg, contents(reg)?.clone()))).collect();
     let (program, pc) = (program.clone(), entry.pc());
     let write = move || {
         if let Some(entry) = program.function(function).native.at(pc) {
@@ -77,6 +76,6 @@ pub(crate) fn write<'v>(
 }
 
 fn write_now<'v>(entry: &Entry, program: &'v Program, function: FunctionId, contents: Contents<'_, 'v>) {
-    let routine_ = (!is_full()).then(|| routine(program, function, entry.pc(), contents));
-    entry.put(routine_.and_then(Result::ok));
+    let machine_code = (!is_full()).then(|| routine(program, function, entry.pc(), contents));
+    entry.put(machine_code.and_then(Result::ok));
 }

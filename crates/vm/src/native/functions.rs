@@ -20,20 +20,20 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         args: Args,
     ) -> Option<Progress> {
         let operands = &self.f(cursor).operands[args.range()];
-        let args_: Vec<Typed> =
+        let arguments: Vec<Typed> =
             operands.iter().map(|o| self.get(cursor, *o).map(|got| got.typed)).collect::<Option<_>>()?;
         let name = builtin::<f64>(id).name;
         let typed = if let ("len", [operand]) = (name, operands) {
             return self.length_of_operand(cursor, pc, to, *operand);
-        } else if let Some(typed) = self.quick(cursor, pc, name, &args_) {
+        } else if let Some(typed) = self.quick(cursor, pc, name, &arguments) {
             typed
         } else if name == "range" {
-            self.range(cursor, pc, &args_)?
-        } else if let Some(typed) = self.vector_function(cursor, pc, name, &args_) {
+            self.range(cursor, pc, &arguments)?
+        } else if let Some(typed) = self.vector_function(cursor, pc, name, &arguments) {
             typed
         } else {
-            let kind = kind_of_answer(name, &args_)?;
-            self.call_builtin(cursor, pc, id, &args_, kind)?
+            let kind = kind_of_answer(name, &arguments)?;
+            self.call_builtin(cursor, pc, id, &arguments, kind)?
         };
         self.put(cursor, to, typed, None);
         Some(Progress::Next)
@@ -45,9 +45,9 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         cursor: &Cursor<'v>,
         pc: usize,
         name: &str,
-        args_: &[Typed],
+        arguments: &[Typed],
     ) -> Option<Typed> {
-        match (name, args_) {
+        match (name, arguments) {
             ("sqrt", [x]) => {
                 let x = self.real(*x)?;
                 let root = self.b.ins().sqrt(x);
@@ -107,9 +107,9 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
     }
 
     /// Writes a range; leaves if there is no such range.
-    pub(super) fn range(&mut self, cursor: &mut Cursor<'v>, pc: usize, args_: &[Typed]) -> Option<Typed> {
+    pub(super) fn range(&mut self, cursor: &mut Cursor<'v>, pc: usize, bounds: &[Typed]) -> Option<Typed> {
         let (zero, unit) = (self.int(0), self.int(1));
-        let parts = match *args_ {
+        let parts = match *bounds {
             [Typed::Int(stop)] => [zero, stop, unit],
             [Typed::Int(start), Typed::Int(stop)] => [start, stop, unit],
             [Typed::Int(start), Typed::Int(stop), Typed::Int(step)] => [start, stop, step],
@@ -135,14 +135,14 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         cursor: &Cursor<'v>,
         pc: usize,
         id: u16,
-        args_: &[Typed],
+        inputs: &[Typed],
         kind: Kind,
     ) -> Option<Typed> {
-        if args_.len() > ARGUMENTS as usize {
+        if inputs.len() > ARGUMENTS as usize {
             return None;
         }
         let args = self.arguments();
-        for (k, typed) in args_.iter().enumerate() {
+        for (k, typed) in inputs.iter().enumerate() {
             let at = 16 * k as i32;
             match typed {
                 Typed::Bool(x) | Typed::Int(x) | Typed::Real(x) => {
@@ -154,7 +154,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             let mark = self.int(typed.kind().mark().cast_signed());
             self.b.ins().store(PLAIN, mark, args, at);
         }
-        let (id, n, out) = (self.int(i64::from(id)), self.int(args_.len() as i64), self.answer());
+        let (id, n, out) = (self.int(i64::from(id)), self.int(inputs.len() as i64), self.answer());
         let mark = self.call_address(calls::call as *const u8, &[id, args, n, out], I64);
         self.read_answer(cursor, pc, mark, kind)
     }
@@ -162,9 +162,10 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
 
 /// The expected kind of the answer of a built-in function of plain values. It is only a guess: the code checks
 /// it.
-fn kind_of_answer(name: &str, args_: &[Typed]) -> Option<Kind> {
-    let all = |kind: Kind| args_.iter().all(|typed| typed.kind() == kind);
-    if !args_.iter().all(|typed| matches!(typed.kind(), Kind::Real | Kind::Int | Kind::Bool | Kind::None)) {
+fn kind_of_answer(name: &str, arguments: &[Typed]) -> Option<Kind> {
+    let all = |kind: Kind| arguments.iter().all(|typed| typed.kind() == kind);
+    if !arguments.iter().all(|typed| matches!(typed.kind(), Kind::Real | Kind::Int | Kind::Bool | Kind::None))
+    {
         return None;
     }
     Some(match name {
@@ -175,7 +176,7 @@ fn kind_of_answer(name: &str, args_: &[Typed]) -> Option<Kind> {
         "int" | "floor" | "ceil" | "trunc" | "sign" | "gcd" | "factorial" | "comb" | "band" | "bor"
         | "bxor" | "invert" | "shl" | "shr" => Kind::Int,
         "round" => {
-            if args_.len() == 1 {
+            if arguments.len() == 1 {
                 Kind::Int
             } else {
                 Kind::Real

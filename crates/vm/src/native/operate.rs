@@ -223,8 +223,8 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         let n = match (Self::count_of_parts(typed), typed) {
             (Some(n), _) => self.int(n as i64),
             (None, Typed::Fresh { parts, .. }) => {
-                let parts_: Vec<Value> = parts.iter().flatten().map(|part| part.value()).collect();
-                self.call_address(calls::range_length as *const u8, &parts_, I64)
+                let bounds: Vec<Value> = parts.iter().flatten().map(|part| part.value()).collect();
+                self.call_address(calls::range_length as *const u8, &bounds, I64)
             }
             (None, Typed::Object(object, _) | Typed::Range { object, .. }) => self.length(cursor, pc, object),
             _ => return None,
@@ -337,9 +337,9 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             return None;
         }
         let operands = &f.operands[args.range()];
-        let args_: Vec<TypedOperand<'v>> =
+        let arguments: Vec<TypedOperand<'v>> =
             operands.iter().map(|o| self.get(cursor, *o)).collect::<Option<_>>()?;
-        if args_.iter().any(|operand| matches!(operand.typed, Typed::Opaque)) {
+        if arguments.iter().any(|operand| matches!(operand.typed, Typed::Opaque)) {
             return None;
         }
         let base = cursor.base + u32::from(f.scratch_registers);
@@ -351,7 +351,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         cursor.count();
         cursor.calls.push(Call { caller: cursor.function, base: cursor.base, back: pc as u32 + 1, to });
         (cursor.function, cursor.base) = (function, base);
-        for (k, TypedOperand { typed, sample }) in args_.into_iter().enumerate() {
+        for (k, TypedOperand { typed, sample }) in arguments.into_iter().enumerate() {
             let parameter = Operand::new(crate::code::Place::Scratch, k);
             self.put(cursor, parameter, typed, sample);
         }
@@ -365,11 +365,11 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         cursor: &Cursor<'v>,
         pc: usize,
         function: *const u8,
-        args_: &[Value],
+        inputs: &[Value],
         prediction: Prediction<'_>,
     ) -> Option<Typed> {
         let out = self.answer();
-        let mark = self.call_address(function, &[args_, &[out]].concat(), I64);
+        let mark = self.call_address(function, &[inputs, &[out]].concat(), I64);
         self.read_answer(cursor, pc, mark, prediction.kind)
     }
 

@@ -152,9 +152,9 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         cursor: &mut Cursor<'v>,
         pc: usize,
         name: &str,
-        args_: &[Typed],
+        arguments: &[Typed],
     ) -> Option<Typed> {
-        match (name, args_) {
+        match (name, arguments) {
             ("vec", parts @ ([_, _] | [_, _, _] | [_, _, _, _])) => {
                 let parts: Vec<Value> = parts.iter().map(|x| self.real(*x)).collect::<Option<_>>()?;
                 Some(self.make_vector(cursor, pc, &parts))

@@ -199,13 +199,13 @@ pub fn slice<S: Scalar>(
             let chars: Vec<char> = text.chars().collect();
             Value::Str(Text::from(places().map(|at| chars[at]).collect::<String>()))
         }
-        Value::Range(range_) => {
-            let at = |n: i64| range_.start.wrapping_add(range_.step.wrapping_mul(n));
+        Value::Range(outer) => {
+            let at = |n: i64| outer.start.wrapping_add(outer.step.wrapping_mul(n));
             let stop = range.start.saturating_add(range.step.saturating_mul(range.len as i64));
             let part = Range {
                 start: at(range.start),
                 stop: at(stop),
-                step: range_.step.saturating_mul(range.step),
+                step: outer.step.saturating_mul(range.step),
                 len: range.len,
             };
             Value::Range(Arc::new(part))
