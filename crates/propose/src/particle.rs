@@ -139,13 +139,13 @@ impl Particle {
                 return None;
             }
             past.look(program, state);
-            let which = pick(&mut answers.chooser, Turn { state, past, picks: *picks })?;
+            let place = pick(&mut answers.chooser, Turn { state, past, picks: *picks })?;
             if state.runnable().len() > 1 {
                 *picks += 1;
-                let future = state.runnable().get(which)?;
-                answers.record.log.push_order(state.path_of(future), which);
+                let future = state.runnable().get(place)?;
+                answers.record.log.push_order(state.path_of(future), place);
             }
-            Some(which)
+            Some(place)
         });
         self.pending = answers.log_ratio;
         match driven {

@@ -14,7 +14,7 @@ use niwaki_vm::machine::Limits;
 use niwaki_vm::value::Value;
 use std::sync::Arc;
 
-/// What a recorded run calls.
+/// The functions that a recorded run calls.
 #[derive(Clone)]
 pub(super) struct Hosted {
     /// The program, whose functions are the inner models.
@@ -28,7 +28,7 @@ pub(super) struct Hosted {
 }
 
 impl Hosted {
-    /// Of a run that is inside of no `infer`.
+    /// The functions of a run that is inside of no `infer`.
     pub fn new(program: Arc<Program<Var>>, hosts: Arc<dyn Hosts>, limits: Limits) -> Hosted {
         Hosted { program, hosts, limits, depth: 0 }
     }
@@ -39,8 +39,8 @@ impl Hosted {
     /// The fault of the function, or arguments that vary where the derivative is not known.
     pub fn call(&self, constant: u16, args: &[Value<Var>], steps: &mut u64) -> Result<Value<Var>, Fault> {
         if !args.iter().any(Value::varies) {
-            let given: Vec<Value> = args.iter().map(|arg| arg.convert(&Var::value)).collect();
-            return Ok(self.hosts.call(constant, &given, steps)?.convert(&Var::from_f64));
+            let numbers: Vec<Value> = args.iter().map(|arg| arg.convert(&Var::value)).collect();
+            return Ok(self.hosts.call(constant, &numbers, steps)?.convert(&Var::from_f64));
         }
         match self.hosts.inference(constant) {
             None => Err(Fault::no_derivative("a host function")),

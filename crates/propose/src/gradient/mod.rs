@@ -34,7 +34,7 @@ pub fn model(task: &Task) -> Result<Model, Failure> {
     recordable(task)
 }
 
-/// The same, without regard to its sketches.
+/// A task in the form that can be recorded, without its sketches.
 fn recordable(task: &Task) -> Result<Model, Failure> {
     if task.model.is_some() {
         return Err(Fault::new("bad-kernel", "no gradient is followed within an `infer` of a model")
@@ -64,7 +64,7 @@ pub fn record(task: &Task, choices: &HashMap<u128, Value>) -> Result<Recorded, F
     Ok(model(task)?.record(choices)?)
 }
 
-/// The same, recorded again wherever a trajectory leaves the path.
+/// The log density of a task, recorded again wherever a trajectory leaves the path.
 ///
 /// # Errors
 /// As [`record`]; also a run without continuous choices.
@@ -72,7 +72,7 @@ pub fn live(task: &Task, choices: &HashMap<u128, Value>) -> Result<Live, Failure
     live_of(model(task)?, choices)
 }
 
-/// The same, of a given model.
+/// The log density of a model, recorded again wherever a trajectory leaves the path.
 pub fn live_of(model: Model, choices: &HashMap<u128, Value>) -> Result<Live, Failure> {
     let recorded = model.record(choices)?;
     if recorded.dim() == 0 {

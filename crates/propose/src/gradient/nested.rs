@@ -11,8 +11,8 @@
 //! probabilities are those of the plain run to the bit ([`niwaki_run::enumeration`]), whose log densities are rounded to a grid.
 //!
 //! Which runs there are, which of them have equal values, and the order of the values may change with the choices outside.
-//! Each is a comparison, so the run is recorded again where one turns out differently. One is loose: two values keep their
-//! order until their log probabilities differ by more than [`TIE`] the other way, because ties of a symmetric model are exact
+//! Each is a comparison, so the run is recorded again where one turns out differently. One comparison is loose: two values keep
+//! their order until their log probabilities differ by more than [`TIE`] the other way. Ties of a symmetric model are exact
 //! in the plain run and only nearly so in a recording.
 
 use super::hosted::Hosted;
@@ -274,16 +274,16 @@ fn stay_apart(outcomes: &[Outcome]) -> Result<(), Failure> {
     let mut forms: HashMap<String, Vec<Vec<Var>>> = HashMap::new();
     for outcome in outcomes {
         let form = repr(&outcome.value.convert(&|_: Var| 0.0))?;
-        let others = forms.entry(form).or_default();
-        let own = numbers(&outcome.value);
-        for other in others.iter() {
-            let pairs = || own.iter().zip(other).filter(|(a, b)| a.value() != b.value());
+        let alike = forms.entry(form).or_default();
+        let reals = numbers(&outcome.value);
+        for other in alike.iter() {
+            let pairs = || reals.iter().zip(other).filter(|(a, b)| a.value() != b.value());
             let fixed = pairs().any(|(a, b)| !a.varies() && !b.varies());
             if let (false, Some((a, b))) = (fixed, pairs().next()) {
                 let _ = a == b;
             }
         }
-        others.push(own);
+        alike.push(reals);
     }
     Ok(())
 }

@@ -29,7 +29,7 @@ pub struct Placer {
 }
 
 impl Placer {
-    /// Of a task; sketches are not looked at.
+    /// A placer of the shapes of a task; the task's sketches do not matter.
     ///
     /// # Errors
     /// The model of an `infer` within another.

@@ -33,7 +33,7 @@ pub const OF_SCORE: std::ops::Range<usize> = 2..4;
 pub struct AheadForm {
     /// The root of the log score in the end where all inputs are zero.
     pub constant: f64,
-    /// What each input adds to it.
+    /// The slope of each input.
     pub weights: Vec<f64>,
     /// The lowest and the highest root that it says: those of its lessons.
     pub range: (f64, f64),

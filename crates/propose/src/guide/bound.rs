@@ -29,7 +29,7 @@ pub struct BoundGuide {
     images: Option<Images>,
     /// Where it looks from as long as nothing says where: the middle of what it looks at.
     middle: Place,
-    /// What of the guide the program or its score does not have, for people.
+    /// Parts of the guide that the program or its score does not have, for people.
     pub lost: Vec<String>,
 }
 
@@ -42,7 +42,7 @@ struct Site {
     variables: Vec<Option<u32>>,
 }
 
-/// What a guide has seen, kept while place and scene stay the same, and room for what it computes.
+/// The view of a guide, kept while place and scene stay the same, and the memory of its computations.
 #[derive(Debug, Default)]
 pub struct Sight {
     /// Place and number of primitives of the sums, and the drawer that they are of.
@@ -62,7 +62,7 @@ pub struct Sight {
     pub(crate) prospect: Vec<f64>,
 }
 
-/// What a guide saw last of a run that is paused, for when it goes on: its next choice is often at the same place.
+/// The last view of a paused run, for when the run resumes: its next choice is often at the same place.
 #[derive(Clone, Debug, Default)]
 pub struct Glance {
     seen: Option<(usize, Place, usize)>,
@@ -114,23 +114,23 @@ impl Sight {
     }
 }
 
-/// Which member of a task's score shows each window: the next one of that name.
+/// The member of a task's score that shows each window: the next member of the window's name.
 pub(crate) fn members(
     task: &Task,
     windows: &[(String, WindowForm)],
 ) -> Result<Vec<(usize, WindowForm)>, String> {
     let mut from = 0;
-    let mut found = Vec::new();
+    let mut matches = Vec::new();
     for (name, form) in windows {
         let shows = |at: &usize| {
             let sketch = &task.sketches[*at];
-            sketch.name() == name && sketch.window().is_some_and(|own| own.values() == form.values())
+            sketch.name() == name && sketch.window().is_some_and(|window| window.values() == form.values())
         };
         let Some(at) = (from..task.sketches.len()).find(shows) else { return Err(name.clone()) };
-        found.push((at, form.clone()));
+        matches.push((at, form.clone()));
         from = at + 1;
     }
-    Ok(found)
+    Ok(matches)
 }
 
 impl BoundGuide {
@@ -155,21 +155,21 @@ impl BoundGuide {
                     continue;
                 }
                 let key = format!("{:032x}", site.key);
-                let Some(number) = form.sites.iter().position(|own| own.key == key) else {
+                let Some(number) = form.sites.iter().position(|known_site| known_site.key == key) else {
                     let name = format!("{}/{}", function.name, site.label);
                     if form.left.iter().all(|(left, _)| *left != name) {
                         lost.push(format!("it does not know `{}` of `{}`", site.label, function.name));
                     }
                     continue;
                 };
-                let own = &form.sites[number];
+                let known_site = &form.sites[number];
                 let variable = |name: &str| {
-                    let mut all = own.variables.iter().copied();
+                    let mut all = known_site.variables.iter().copied();
                     all.find(|v| form.variables[*v as usize].name == name)
                 };
                 let scope = function.visible(site);
                 let variables: Vec<Option<u32>> = scope.map(|seen| variable(&seen.name)).collect();
-                for v in &own.variables {
+                for v in &known_site.variables {
                     if !variables.contains(&Some(*v)) {
                         let name = &form.variables[*v as usize].name;
                         lost.push(format!("`{}` of `{}` does not see `{name}`", site.label, function.name));
@@ -184,11 +184,11 @@ impl BoundGuide {
             return Err(Fault::new("guide-model", message)
                 .with_help("train a guide for this model: `niwaki.train_guide`"));
         }
-        let gone =
-            (0..form.sites.len()).filter(|number| sites.values().all(|own: &Site| own.number != *number));
-        lost.extend(gone.map(|number| {
-            let own = &form.sites[number];
-            format!("the model has no `{}` of `{}`", own.label, own.function)
+        let absent =
+            (0..form.sites.len()).filter(|number| sites.values().all(|site: &Site| site.number != *number));
+        lost.extend(absent.map(|number| {
+            let missing_site = &form.sites[number];
+            format!("the model has no `{}` of `{}`", missing_site.label, missing_site.function)
         }));
         let domain = windows.first().and_then(|(member, _)| task.sketches[*member].domain());
         let middle = along_axes(domain.map_or(vec3(0.0, 0.0, 0.0), |domain| domain.center()));
@@ -227,16 +227,17 @@ impl BoundGuide {
     ) -> Option<usize> {
         let site = self.sites.get(&at.site.key)?;
         let form = &self.guide.form;
-        let own = &form.sites[site.number];
-        if !own.head.fits(dist) {
+        let choice = &form.sites[site.number];
+        if !choice.head.fits(dist) {
             return None;
         }
         let part = at.part().or(seen.part.as_ref());
         let here = place_of(at, part).unwrap_or(self.middle);
         let now = (owner, here, seen.primitives);
         if sight.seen != Some(now) {
-            let same = sight.seen.is_some_and(|(who, _, count)| (who, count) == (owner, seen.primitives));
-            self.see(seen.sketches, &here, same, sight);
+            let is_unchanged =
+                sight.seen.is_some_and(|(viewer, _, count)| (viewer, count) == (owner, seen.primitives));
+            self.see(seen.sketches, &here, is_unchanged, sight);
             sight.seen = Some(now);
         }
         sight.features.clear();
@@ -245,21 +246,21 @@ impl BoundGuide {
         }
         for (variable, (_, _, value)) in site.variables.iter().zip(at.visible()) {
             if let Some(v) = variable {
-                let own = &form.variables[*v as usize];
-                own.kind.write(value, &here, own.first, &|cell| at.element(cell), &mut sight.features);
+                let input = &form.variables[*v as usize];
+                input.kind.write(value, &here, input.first, &|cell| at.element(cell), &mut sight.features);
             }
         }
         if let (Some(first), Some(part)) = (form.part, part) {
             let numbers = of_part(part).into_iter().zip(first..);
             sight.features.extend(numbers.map(|(x, number)| (number, x as f32)));
         }
-        parameters(dist, own.parameters, &mut sight.features);
+        parameters(dist, choice.parameters, &mut sight.features);
         Some(site.number)
     }
 
     /// Fills `sight` with what the sketches show around a place; with zeros where there are none. An image is looked at
     /// again unless it is the same.
-    fn see(&self, sketches: Option<&Sketches>, here: &Place, same: bool, sight: &mut Sight) {
+    fn see(&self, sketches: Option<&Sketches>, here: &Place, is_unchanged: bool, sight: &mut Sight) {
         match (&self.guide.net, &self.images) {
             (Network::Shared(net), _) => {
                 sight.window.clear();
@@ -272,7 +273,7 @@ impl BoundGuide {
             }
             (Network::Filtered(net), Some(images)) => {
                 sight.at = images.at(here);
-                if !same {
+                if !is_unchanged {
                     images.see(net, sketches, sight);
                 }
             }

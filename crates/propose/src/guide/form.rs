@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 /// The version of the file's form.
 pub const FORMAT: u32 = 1;
 
-/// What a guide looks at, and which choices it draws.
+/// The inputs of a guide, and the choices that it draws.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GuideForm {
     /// The version of this form.
@@ -38,7 +38,7 @@ pub struct GuideForm {
     /// How it looks ahead; `None` where it has not learned to.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ahead: Option<AheadForm>,
-    /// What it was made from and how well it did, for people.
+    /// The training data and the quality of the guide, for people.
     pub report: serde_json::Map<String, serde_json::Value>,
 }
 
@@ -73,7 +73,7 @@ pub struct SiteForm {
     pub label: String,
     /// The family of its prior.
     pub family: String,
-    /// What the network's outputs mean.
+    /// The meaning of the network's outputs.
     pub head: Head,
     /// The variables that it sees, by number.
     pub variables: Vec<u32>,
@@ -91,8 +91,9 @@ impl GuideForm {
 
     /// How many inputs there are beside the windows.
     pub fn features(&self) -> usize {
-        let of_variables = self.variables.iter().map(|own| own.first as usize + own.kind.len());
-        let of_sites = self.sites.iter().map(|own| own.parameters.0 as usize + own.parameters.1 as usize);
+        let of_variables =
+            self.variables.iter().map(|variable| variable.first as usize + variable.kind.len());
+        let of_sites = self.sites.iter().map(|site| site.parameters.0 as usize + site.parameters.1 as usize);
         let of_part = self.part.map(|first| first as usize + OF_PART.len());
         of_variables.chain(of_sites).chain(of_part).max().unwrap_or(0)
     }
@@ -127,17 +128,17 @@ impl GuideForm {
         let mut put = |first: u32, part: Vec<String>| {
             part.into_iter().enumerate().for_each(|(i, name)| names[first as usize + i] = name);
         };
-        for own in &self.variables {
+        for variable in &self.variables {
             let mut parts = Vec::new();
-            own.kind.names(&format!("{}:{}", own.function, own.name), &mut parts);
-            put(own.first, parts);
+            variable.kind.names(&format!("{}:{}", variable.function, variable.name), &mut parts);
+            put(variable.first, parts);
         }
         if let Some(first) = self.part {
             put(first, OF_PART.iter().map(|name| format!("the last part: {name}")).collect());
         }
-        for own in &self.sites {
-            let name = |i| format!("{}/{}: parameter {} of the prior", own.function, own.label, i + 1);
-            put(own.parameters.0, (0..own.parameters.1).map(name).collect());
+        for site in &self.sites {
+            let name = |i| format!("{}/{}: parameter {} of the prior", site.function, site.label, i + 1);
+            put(site.parameters.0, (0..site.parameters.1).map(name).collect());
         }
         names
     }

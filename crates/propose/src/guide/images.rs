@@ -20,7 +20,7 @@ pub const OF_PLACE: u32 = 3;
 /// The page of a guide for one program.
 #[derive(Debug)]
 pub struct Images {
-    /// Which member of the score shows it.
+    /// The member of the score that shows the page.
     member: usize,
     /// Where the page is in the scene.
     pub page: Page,
@@ -32,8 +32,8 @@ pub struct Images {
 impl Images {
     /// The page of the first sketch of this name that has one.
     pub(super) fn new(form: &ImageForm, net: &Filtered, task: &Task) -> Option<Images> {
-        let mut members = task.sketches.iter().enumerate().filter(|(_, own)| own.name() == form.sketch);
-        let (member, (page, bits)) = members.find_map(|(member, own)| Some((member, own.image()?)))?;
+        let mut members = task.sketches.iter().enumerate().filter(|(_, sketch)| sketch.name() == form.sketch);
+        let (member, (page, bits)) = members.find_map(|(member, sketch)| Some((member, sketch.image()?)))?;
         let mut target = Levels::default();
         net.see_target(page.size(), &bits, &mut target);
         Some(Images { member, page, bits: bits.into(), target })

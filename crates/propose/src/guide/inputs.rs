@@ -52,9 +52,9 @@ fn point(value: &Value) -> Option<(Vec3, usize)> {
         _ => None,
     };
     match value {
-        Value::Vector(own) => of(own.components()),
-        Value::Tuple(own) if matches!(own.items().len(), 2 | 3) => {
-            let all: Option<Vec<f64>> = own.items().iter().map(number).collect();
+        Value::Vector(vector) => of(vector.components()),
+        Value::Tuple(tuple) if matches!(tuple.items().len(), 2 | 3) => {
+            let all: Option<Vec<f64>> = tuple.items().iter().map(number).collect();
             of(&all?)
         }
         _ => None,
@@ -86,18 +86,18 @@ impl Kind {
                 let last = list.len().checked_sub(1).and_then(|at| list.get(at));
                 Kind::List(Box::new(last.map_or(Kind::Nothing, |value| Kind::of(value, false))))
             }
-            Value::Record(own) => {
-                let parts = own.class.fields.iter().zip(&own.fields);
+            Value::Record(record) => {
+                let parts = record.class.fields.iter().zip(&record.fields);
                 // The third direction of a frame says little beside the other two.
-                let parts = parts.filter(|(name, _)| !(own.class.is_frame() && *name == "up"));
+                let parts = parts.filter(|(name, _)| !(record.class.is_frame() && *name == "up"));
                 Kind::Parts(parts.map(|(name, value)| (name.to_string(), Kind::of(value, false))).collect())
             }
             Value::Tuple(_) | Value::Vector(_) if let Some((at, numbers)) = point(value) => {
                 Kind::Point { numbers, unit: (at.norm() - 1.0).abs() < 1e-6 }
             }
-            Value::Tuple(own) => {
+            Value::Tuple(tuple) => {
                 let part = |(i, value): (usize, &Value)| (i.to_string(), Kind::of(value, false));
-                Kind::Parts(own.items().iter().enumerate().map(part).collect())
+                Kind::Parts(tuple.items().iter().enumerate().map(part).collect())
             }
             _ => Kind::Nothing,
         }
@@ -116,7 +116,7 @@ impl Kind {
             }
             // The last element of an empty list is unknown.
             (Kind::List(a), Kind::List(b)) => Kind::List(Box::new(match (*a, *b) {
-                (Kind::Nothing, own) | (own, Kind::Nothing) => own,
+                (Kind::Nothing, kind) | (kind, Kind::Nothing) => kind,
                 (a, b) => a.join(b),
             })),
             (Kind::Texts(mut a), Kind::Texts(b)) => {
@@ -198,8 +198,8 @@ impl Kind {
                 }
             }
             (Kind::Point { numbers, unit }, _) => {
-                let Some((at, same)) = point(value) else { return };
-                if same != *numbers {
+                let Some((at, components)) = point(value) else { return };
+                if components != *numbers {
                     return;
                 }
                 let from = if *unit { at } else { at - place.position };
@@ -208,31 +208,31 @@ impl Kind {
                     put(i as u32, *x);
                 }
             }
-            (Kind::Parts(parts), Value::Record(own)) => {
+            (Kind::Parts(parts), Value::Record(record)) => {
                 let mut first = first;
                 for (name, kind) in parts {
-                    if let Some(value) = own.field(name) {
+                    if let Some(value) = record.field(name) {
                         kind.write(value, place, first, element, to);
                     }
                     first += kind.len() as u32;
                 }
             }
-            (Kind::Parts(parts), Value::Tuple(own)) if own.items().len() == parts.len() => {
+            (Kind::Parts(parts), Value::Tuple(tuple)) if tuple.items().len() == parts.len() => {
                 let mut first = first;
-                for ((_, kind), value) in parts.iter().zip(own.items()) {
+                for ((_, kind), value) in parts.iter().zip(tuple.items()) {
                     kind.write(value, place, first, element, to);
                     first += kind.len() as u32;
                 }
             }
-            (Kind::List(last), Value::List(own)) => {
-                put(0, own.len() as f64);
-                if let Some(value) = own.len().checked_sub(1).and_then(|at| own.get(at)) {
+            (Kind::List(last), Value::List(list)) => {
+                put(0, list.len() as f64);
+                if let Some(value) = list.len().checked_sub(1).and_then(|at| list.get(at)) {
                     last.write(element(value), place, first + 1, element, to);
                 }
             }
             (Kind::Texts(all), Value::Str(text)) => {
-                for (i, one) in all.iter().enumerate() {
-                    put(i as u32, f64::from(u8::from(one.as_str() == &**text)));
+                for (i, choice) in all.iter().enumerate() {
+                    put(i as u32, f64::from(u8::from(choice.as_str() == &**text)));
                 }
             }
             _ => {}

@@ -25,7 +25,7 @@ use niwaki_vm::fault::Fault;
 /// A trained guide.
 #[derive(Debug)]
 pub struct Guide {
-    /// What it looks at, and what it draws.
+    /// The inputs and the choices of the guide.
     pub form: GuideForm,
     /// Its network.
     pub net: Network,
@@ -86,10 +86,10 @@ impl Guide {
         }
         let form: GuideForm =
             serde_json::from_value(data).map_err(|error| bad(format!("the guide's description: {error}")))?;
-        let heads = form.sites.iter().map(|own| &own.head);
+        let heads = form.sites.iter().map(|site| &site.head);
         let fits = match &net {
             Network::Shared(net) => {
-                form.ahead.as_ref().is_none_or(|own| own.fits(net.form().hidden[1]))
+                form.ahead.as_ref().is_none_or(|forecast| forecast.fits(net.form().hidden[1]))
                     && form.features() == net.form().features
                     && form.window_values() == net.form().windows
                     && form.image.is_none()
