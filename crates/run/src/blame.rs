@@ -1,4 +1,4 @@
-//! Which parts of scenes break a constraint: for what is told of runs that became impossible.
+//! The parts of scenes that break a constraint, for reports of runs that became impossible.
 
 use crate::Task;
 use crate::failure::{Blame, Dead, Emitted, Failure};

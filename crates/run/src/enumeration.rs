@@ -112,15 +112,19 @@ pub fn enumerate(
 /// # Errors
 /// A choice that cannot be enumerated, too many runs, only impossible runs, or a fault of the program, also where all runs are
 /// invalid.
-pub fn visit(task: &Task, what: Visit, watch: &mut dyn FnMut(usize) -> bool) -> Result<Enumerated, Failure> {
+pub fn visit(
+    task: &Task,
+    extent: Visit,
+    watch: &mut dyn FnMut(usize) -> bool,
+) -> Result<Enumerated, Failure> {
     let mut machine = task.machine();
-    let mut open = Frontier::new(what);
+    let mut open = Frontier::new(extent);
     open.push(Branch {
         state: task.start(&machine, true)?,
         record: Record::start(&task.sketches),
         next: Next::Start,
     });
-    let (endless, rest) = match what {
+    let (endless, rest) = match extent {
         Visit::All(_) => (false, 0.0),
         Visit::Likely { rest, .. } => (true, rest),
     };
@@ -156,7 +160,7 @@ pub fn visit(task: &Task, what: Visit, watch: &mut dyn FnMut(usize) -> bool) -> 
         let is_run = branch.record.cause.is_some() || branch.state.has_ended();
         if is_run {
             met += 1;
-            if let Visit::All(max_runs) = what
+            if let Visit::All(max_runs) = extent
                 && met > max_runs
             {
                 return Err(too_many(max_runs).into());
@@ -181,9 +185,9 @@ pub fn visit(task: &Task, what: Visit, watch: &mut dyn FnMut(usize) -> bool) -> 
             });
             outcomes[at].1.push(log_joint);
         }
-        let enough = matches!(what, Visit::Likely { runs, .. } if met >= runs);
+        let enough = matches!(extent, Visit::Likely { runs, .. } if met >= runs);
         if is_run && !watch(met) {
-            match what {
+            match extent {
                 Visit::All(_) => {
                     return Err(Fault::new("out-of-time", format!("stopped after {met} runs")).into());
                 }

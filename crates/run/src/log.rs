@@ -48,7 +48,7 @@ impl Entry {
     /// The place of the future that ran among the runnable futures; `None` unless the entry is an order choice.
     pub fn which(&self) -> Option<usize> {
         match self.value {
-            Value::Future(which) => Some(which as usize),
+            Value::Future(place) => Some(place as usize),
             _ => None,
         }
     }
@@ -89,8 +89,8 @@ impl Log {
     }
 
     /// Add an order choice: the place of the future that ran among the runnable futures.
-    pub fn push_order(&mut self, address: u128, which: usize) {
-        self.push(address, Value::Future(which as u32));
+    pub fn push_order(&mut self, address: u128, place: usize) {
+        self.push(address, Value::Future(place as u32));
     }
 
     /// Copy the log; both logs share the present entries.
@@ -182,7 +182,7 @@ enum Plain {
 impl Plain {
     fn of(value: &Value) -> Option<Plain> {
         Some(match value {
-            Value::Future(which) => Plain::Order(*which),
+            Value::Future(place) => Plain::Order(*place),
             Value::Bool(b) => Plain::Bool(*b),
             Value::Int(i) => Plain::Int(*i),
             Value::Real(x) => Plain::Real(x.to_bits()),
@@ -222,7 +222,7 @@ impl<'de> Deserialize<'de> for Log {
             Plain::Vector(xs) => Draw::Vector(xs.into_iter().map(f64::from_bits).collect()).into(),
             Plain::Counts(all) => Draw::Counts(all.into()).into(),
             Plain::Truths(all) => Draw::Truths(all.into()).into(),
-            Plain::Order(which) => Value::Future(which),
+            Plain::Order(place) => Value::Future(place),
         };
         let entries: Vec<(u128, Plain)> = Vec::deserialize(from)?;
         Ok(entries.into_iter().map(|(address, plain)| (address, value(plain))).collect())

@@ -154,7 +154,7 @@ impl Past {
                 self.futures.resize(at + 1, None);
             }
             if self.futures[at].is_none() {
-                let name = state.function_of(id).map(|own| &program.function(own).name);
+                let name = state.function_of(id).map(|function_id| &program.function(function_id).name);
                 let function = name.and_then(|name| policy.functions.get(&**name)).copied().unwrap_or(0.0);
                 let fixed = function + policy.depth * f64::from(depth).ln_1p();
                 self.futures[at] = Some(Seen { fixed, depth, turns: 0, since: self.turn });
@@ -169,14 +169,14 @@ impl Past {
         }
         self.turn += 1;
         self.last = Some(future);
-        let Some(own) = self.futures.get_mut(future.0 as usize) else { return };
-        if let Some(seen) = own {
+        let Some(entry) = self.futures.get_mut(future.0 as usize) else { return };
+        if let Some(seen) = entry {
             self.last_depth = seen.depth;
             seen.turns += 1;
             seen.since = self.turn;
         }
         if state.has_returned(future) {
-            *own = None;
+            *entry = None;
         }
     }
 
@@ -204,12 +204,12 @@ impl Past {
     }
 
     /// The log probability that the future at a place runs next.
-    pub fn log_probability(&self, state: &State, which: usize) -> f64 {
+    pub fn log_probability(&self, state: &State, place: usize) -> f64 {
         match self.logs(state) {
             None => -(state.runnable().len() as f64).ln(),
             Some(logs) => {
                 let all = relative(&logs);
-                (all[which] / all.iter().sum::<f64>()).ln()
+                (all[place] / all.iter().sum::<f64>()).ln()
             }
         }
     }

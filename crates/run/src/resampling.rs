@@ -62,8 +62,8 @@ impl Resampling {
         }
     }
 
-    /// The same where one particle may be `held`: it survives for certain, and the others are drawn independently, whatever the
-    /// method is. Only independent draws have this simple conditional form (Andrieu, Doucet & Holenstein 2010, section 4.3).
+    /// Copies of each particle, one of which may be `held`. The held particle survives for certain; the others are drawn independently,
+    /// whatever the method is. Only independent draws have this simple conditional form (Andrieu, Doucet & Holenstein 2010, section 4.3).
     pub fn copies_with(self, held: Option<usize>, weights: &[f64], random: &mut Stream) -> Vec<usize> {
         let Some(held) = held else { return self.copies(weights, random) };
         let mut copies = multinomial(weights, weights.len() - 1, random);
@@ -79,7 +79,7 @@ fn count(among: std::ops::Range<usize>, has: impl Fn(usize) -> bool) -> usize {
     among.take_while(|k| has(*k)).count()
 }
 
-/// What rounding may move a point by, in distances of points: for fewer than a thousand million of them.
+/// The largest rounding error of a point, in distances of points, for fewer than a thousand million of them.
 const ROUNDED: f64 = 1e-6;
 
 /// Counts how many of the increasing points `at(0), at(1), ...` are in each particle's share: the points up to its end less

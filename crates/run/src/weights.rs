@@ -145,8 +145,8 @@ mod tests {
         let equal = || [0.0; 4].into_iter();
         assert!((conditional_share(equal(), half.into_iter()) - 0.5).abs() < 1e-12);
         // No particle with a weight survives the step.
-        let others = [f64::NEG_INFINITY, 0.0, 0.0, f64::NEG_INFINITY];
-        assert_eq!(conditional_share(half.into_iter(), others.into_iter()), 0.0);
+        let survivors = [f64::NEG_INFINITY, 0.0, 0.0, f64::NEG_INFINITY];
+        assert_eq!(conditional_share(half.into_iter(), survivors.into_iter()), 0.0);
     }
 
     /// A constant in all weights or in all steps changes nothing; by hand, for weights 1 and 3 and steps 1 and 1/3:
@@ -156,13 +156,13 @@ mod tests {
         let (w, u) = ([0.0, 3.0f64.ln()], [0.0, -(3.0f64.ln())]);
         for by in [0.0, -1e5, 1e5] {
             for up in [0.0, -1e5, 1e5] {
-                let found = conditional_share(w.map(|w| w + by).into_iter(), u.map(|u| u + up).into_iter());
-                assert!((found - 0.75).abs() < 1e-9, "{by}, {up}: {found}");
+                let share = conditional_share(w.map(|w| w + by).into_iter(), u.map(|u| u + up).into_iter());
+                assert!((share - 0.75).abs() < 1e-9, "{by}, {up}: {share}");
             }
         }
         // All of the weight on one particle: whatever the steps are, it stays effective.
-        let found = conditional_share([1e5, -1e5].into_iter(), [-1e4, 0.0].into_iter());
-        assert!((found - 1.0).abs() < 1e-9, "{found}");
+        let share = conditional_share([1e5, -1e5].into_iter(), [-1e4, 0.0].into_iter());
+        assert!((share - 1.0).abs() < 1e-9, "{share}");
     }
 
     #[test]
