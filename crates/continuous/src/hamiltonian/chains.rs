@@ -128,7 +128,7 @@ pub struct Chain<P> {
     pub kernel: Kernel,
     /// The seed of all chains.
     pub seed: u64,
-    /// Which chain.
+    /// The number of the chain.
     pub number: u64,
     /// The number of transitions so far.
     pub visit: u64,
@@ -298,7 +298,7 @@ pub(super) struct Marks {
 /// The failure of a chain that could not start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BadStart {
-    /// Which chain.
+    /// The number of the chain.
     pub chain: usize,
     /// The reason of the target for refusing the start.
     pub stop: Stop,
@@ -418,19 +418,19 @@ mod tests {
 
     #[test]
     fn draws_do_not_depend_on_threads_or_on_other_chains() {
-        let (one, many) = (chains(1, 4), chains(3, 5));
-        for (a, b) in one.iter().zip(&many) {
+        let (single, many) = (chains(1, 4), chains(3, 5));
+        for (a, b) in single.iter().zip(&many) {
             assert_eq!((&a.x, &a.energy, a.step_size), (&b.x, &b.energy, b.step_size));
         }
-        assert_ne!(one[0].x, one[1].x);
+        assert_ne!(single[0].x, single[1].x);
     }
 
     #[test]
     fn a_chain_can_be_stopped() {
         let settings = Settings { warmup: 100, draws: 1000, ..Settings::nuts() };
         let stopped = |at: u32| {
-            let found = sample(|_| normals(vec![1.0]), &[vec![0.0]], &settings, 1, &|_, done| done < at);
-            let draws = found.expect("a start").pop().expect("one chain");
+            let chains = sample(|_| normals(vec![1.0]), &[vec![0.0]], &settings, 1, &|_, done| done < at);
+            let draws = chains.expect("a start").pop().expect("one chain");
             (draws.interrupted, draws.len())
         };
         assert_eq!(stopped(20), (true, 0));

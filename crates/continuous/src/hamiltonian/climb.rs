@@ -39,7 +39,7 @@ struct Ascent {
     heights: Vec<f64>,
     /// Mean height of the steps before the last check.
     before: f64,
-    taken: u32,
+    steps_done: u32,
     is_over: bool,
 }
 
@@ -56,7 +56,7 @@ impl Ascent {
             step: FIRST,
             heights: vec![],
             before: f64::NEG_INFINITY,
-            taken: 0,
+            steps_done: 0,
             is_over: steps == 0,
         }
     }
@@ -67,9 +67,9 @@ impl Ascent {
             self.height = value;
             self.top.copy_from_slice(&self.at);
         }
-        self.taken += 1;
+        self.steps_done += 1;
         self.check(value);
-        self.is_over |= self.taken == steps;
+        self.is_over |= self.steps_done == steps;
         self.share *= MEMORY;
         let rows = self.at.iter_mut().zip(&mut self.slope).zip(&mut self.size).zip(gradient);
         for (((at, slope), size), g) in rows {
@@ -83,7 +83,7 @@ impl Ascent {
     /// Checks regularly whether steps are too long, or bring no gain.
     fn check(&mut self, value: f64) {
         self.heights.push(value);
-        if self.heights.len() < LOOK.max(self.taken / 10) as usize {
+        if self.heights.len() < LOOK.max(self.steps_done / 10) as usize {
             return;
         }
         let count = self.heights.len() as f64;
@@ -99,11 +99,11 @@ impl Ascent {
         self.heights.clear();
     }
 
-    /// The same, by its own target.
+    /// Take a step with the ascent's own target.
     fn step_alone(&mut self, target: &mut (impl Potential + ?Sized), gradient: &mut [f64], steps: u32) {
         match evaluate(target, &self.at, gradient) {
             Ok(value) => self.step(value, gradient.iter().copied(), steps),
-            Err(_) => (self.taken, self.is_over) = (self.taken + 1, true),
+            Err(_) => (self.steps_done, self.is_over) = (self.steps_done + 1, true),
         }
     }
 }
@@ -116,10 +116,10 @@ pub fn climb(target: &mut (impl Potential + ?Sized), x: &mut [f64], steps: u32) 
         ascent.step_alone(target, &mut gradient, steps);
     }
     x.copy_from_slice(&ascent.top);
-    ascent.taken
+    ascent.steps_done
 }
 
-/// The same from several points, `L` of them in parallel. Each has its own target for points that the wide density does
+/// Climb from several points, `L` of them in parallel. Each has its own target for points that the wide density does
 /// not cover. Where an ascent ends, the next point takes its lane.
 pub fn climb_in_lanes<const L: usize>(
     targets: &mut [&mut impl Potential],
@@ -129,7 +129,7 @@ pub fn climb_in_lanes<const L: usize>(
 ) -> Vec<u32> {
     let dim = starts.first().map_or(0, |start| start.len());
     let mut ascents: Vec<Ascent> = starts.iter().map(|start| Ascent::from(start, steps)).collect();
-    let (mut x, mut g, mut one) = (vec![[0.0; L]; dim], vec![[0.0; L]; dim], vec![0.0; dim]);
+    let (mut x, mut g, mut gradient) = (vec![[0.0; L]; dim], vec![[0.0; L]; dim], vec![0.0; dim]);
     let mut waiting = (0..ascents.len()).take_while(|_| steps > 0);
     let mut lanes: [Option<usize>; L] = [(); L].map(|()| waiting.next());
     while let Some(first) = lanes.iter().flatten().next().copied() {
@@ -146,7 +146,7 @@ pub fn climb_in_lanes<const L: usize>(
             if covered[l] && values[l].is_finite() && finite[l] {
                 ascent.step(values[l], g.iter().map(|row| row[l]), steps);
             } else {
-                ascent.step_alone(&mut *targets[number], &mut one, steps);
+                ascent.step_alone(&mut *targets[number], &mut gradient, steps);
             }
             if ascent.is_over {
                 *lane = waiting.next();
@@ -154,7 +154,7 @@ pub fn climb_in_lanes<const L: usize>(
         }
     }
     starts.iter_mut().zip(&ascents).for_each(|(start, ascent)| start.copy_from_slice(&ascent.top));
-    ascents.iter().map(|ascent| ascent.taken).collect()
+    ascents.iter().map(|ascent| ascent.steps_done).collect()
 }
 
 #[cfg(test)]
@@ -171,10 +171,10 @@ mod tests {
         let mut target = normals(vec![1e-3, 0.1, 1.0, 1e3]);
         let mut gradient = vec![0.0; 4];
         let low = evaluate(&mut target, &x, &mut gradient).expect("a point of the target");
-        let taken = climb(&mut target, &mut x, 1000);
+        let steps = climb(&mut target, &mut x, 1000);
         let high = evaluate(&mut target, &x, &mut gradient).expect("a point of the target");
         assert!(low < -1e6 && high > -3.0, "{low} {high}");
-        assert!(taken > 100 && taken < 1000, "ends by itself, after {taken}");
+        assert!(steps > 100 && steps < 1000, "ends by itself, after {steps}");
     }
 
     #[test]
@@ -195,7 +195,7 @@ mod tests {
             if x[0] < 1.0 { Ok(x[0]) } else { Err(Stop { cause: Cause::Guard, place: 0 }) }
         });
         let mut x = vec![0.0];
-        let taken = climb(&mut walled, &mut x, 100);
-        assert!(taken < 100 && (0.5..1.0).contains(&x[0]), "{taken} {}", x[0]);
+        let steps = climb(&mut walled, &mut x, 100);
+        assert!(steps < 100 && (0.5..1.0).contains(&x[0]), "{steps} {}", x[0]);
     }
 }

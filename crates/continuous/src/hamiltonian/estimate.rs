@@ -1,9 +1,9 @@
 //! A metric from the draws and gradients of a window of warm-up.
 //!
 //! Diagonal and dense metrics take the draws' covariance. The low-rank one looks at the gradients too, whose
-//! covariance is the inverse of the draws' on a normal target: `D_i = (var x_i / var g_i)^(1/4)` makes both agree,
-//! and within the directions in which either is still far from the identity, the metric is the geometric mean of the draws'
-//! covariance and the inverse of the gradients' (the minimiser of the Fisher divergence, as in nutpie's engine). So a
+//! covariance is the inverse of the draws' on a normal target: `D_i = (var x_i / var g_i)^(1/4)` makes both agree.
+//! In the directions in which either is still far from the identity, the metric is the geometric mean of the draws'
+//! covariance and the inverse of the gradients'. (It minimises the Fisher divergence, as in nutpie's engine.) So a
 //! direction along which a constraint is tight is seen after fewer draws than there are coordinates.
 
 use super::leapfrog::{add, dot};

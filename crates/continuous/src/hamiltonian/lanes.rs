@@ -2,8 +2,8 @@
 //!
 //! Chains that move over one density differ in position, step size and scales. A group of them takes
 //! each leapfrog step together, with one evaluation for all; momentum, acceptance and adaptation are each chain's own.
-//! The operations on a lane are those of the leapfrog integrator, in its order, so a lane gives the bits that its chain
-//! gives alone, where the wide density gives the bits of the chain's own target.
+//! The operations on a lane are those of the leapfrog integrator, in its order. So a lane gives the bits that its chain
+//! gives alone, if the wide density gives the bits of the chain's own target.
 //!
 //! Where the wide density does not cover a point, the chain's own target evaluates it.
 
@@ -77,7 +77,7 @@ struct Lanes<const L: usize> {
     gradient: Vec<[f64; L]>,
     variance: Vec<[f64; L]>,
     /// One point of one lane.
-    one: (Vec<f64>, Vec<f64>),
+    point: (Vec<f64>, Vec<f64>),
     /// The share of the last transitions' points that the wide density did not cover.
     outside: f64,
 }
@@ -115,7 +115,7 @@ impl<const L: usize> Rows<'_, L> {
     }
 }
 
-/// Which lanes have only finite numbers.
+/// For each lane, whether all its numbers are finite.
 pub(crate) fn finite<const L: usize>(rows: &[[f64; L]]) -> [bool; L] {
     match Vectors::here() {
         // SAFETY: the processor has AVX-512.
@@ -180,7 +180,7 @@ impl<const L: usize> Lanes<L> {
             p: rows(),
             gradient: rows(),
             variance: rows(),
-            one: (vec![0.0; dim], vec![0.0; dim]),
+            point: (vec![0.0; dim], vec![0.0; dim]),
             outside: 0.0,
         }
     }
@@ -244,7 +244,7 @@ impl<const L: usize> Lanes<L> {
                     Ok(_) => {}
                     Err(stop) => {
                         let Phase { x, p, .. } = &mut chains[l].phase;
-                        x.copy_from_slice(&self.one.0);
+                        x.copy_from_slice(&self.point.0);
                         p.iter_mut().zip(&self.p).for_each(|(p, row)| *p = row[l]);
                         lane.refused = Some(stop);
                         refused.push(l);
@@ -306,7 +306,7 @@ impl<const L: usize> Lanes<L> {
     /// Evaluates the point of a lane by the chain's own target.
     #[cold]
     fn alone<P: Potential>(&mut self, l: usize, chain: &mut Chain<P>, last: bool) -> Result<f64, Stop> {
-        let (x, g) = &mut self.one;
+        let (x, g) = &mut self.point;
         x.iter_mut().zip(&self.x).for_each(|(x, row)| *x = row[l]);
         let value = if last {
             evaluate(&mut chain.target, x, g)?

@@ -103,9 +103,9 @@ pub fn leapfrog(
             && let Metric::Diagonal { variance, .. } = metric
         {
             let Phase { x, p, gradient: g, .. } = phase;
-            let taken = target.roll(Rolling { x, p, g, variance }, kick, step, left - 1);
-            left -= taken;
-            kick = if taken > 0 { step } else { kick };
+            let rolled = target.roll(Rolling { x, p, g, variance }, kick, step, left - 1);
+            left -= rolled;
+            kick = if rolled > 0 { step } else { kick };
         }
         drift(metric, phase, kick, step);
         left -= 1;

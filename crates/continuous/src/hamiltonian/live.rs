@@ -9,7 +9,7 @@ impl Potential for Live {
         Live::dim(self)
     }
 
-    /// What is not finite stops a trajectory by itself: see [`super::potential::evaluate`].
+    /// A number that is not finite stops a trajectory by itself: see [`super::potential::evaluate`].
     #[inline]
     fn value_and_gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<f64, Stop> {
         Live::value_and_gradient(self, x, gradient)

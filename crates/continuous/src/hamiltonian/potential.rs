@@ -141,7 +141,7 @@ pub(super) fn not_finite(g: &[f64]) -> Stop {
 
 #[cfg(test)]
 pub(crate) mod tests {
-    //! What is not finite is a stop with its coordinate.
+    //! A number that is not finite is a stop with its coordinate.
     use super::*;
 
     /// A target given by a function of (x, gradient).

@@ -63,7 +63,7 @@ impl BrokenOff {
 
 impl std::ops::AddAssign for BrokenOff {
     fn add_assign(&mut self, other: BrokenOff) {
-        self.refused.iter_mut().zip(other.refused).for_each(|(sum, one)| *sum += one);
+        self.refused.iter_mut().zip(other.refused).for_each(|(sum, count)| *sum += count);
         self.drifted += other.drifted;
         self.in_warmup += other.in_warmup;
     }

@@ -43,7 +43,7 @@ const TINY: f64 = 1e-8;
 /// The settings of an ascent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Which normals there are.
+    /// The family of the normals.
     pub family: Family,
     /// Steps at most.
     pub steps: u32,
@@ -72,7 +72,7 @@ pub struct Broke {
     pub x: Option<Vec<f64>>,
 }
 
-/// What an ascent found.
+/// The result of an ascent.
 #[derive(Clone, Debug)]
 pub struct Fit {
     /// The normal.
@@ -225,13 +225,13 @@ struct Rows {
     z: Vec<Row>,
     x: Vec<Row>,
     g: Vec<Row>,
-    own: Memory,
+    memory: Memory,
 }
 
 impl Rows {
     fn new(member: &Member) -> Rows {
         let none = vec![[0.0; LANES]; member.dim()];
-        Rows { z: none.clone(), x: none.clone(), g: none, own: member.memory() }
+        Rows { z: none.clone(), x: none.clone(), g: none, memory: member.memory() }
     }
 }
 
@@ -269,11 +269,11 @@ impl Ascent<'_> {
             }
             center.iter_mut().zip(&self.member.parameters).for_each(|(c, p)| *c += p);
         }
-        let taken = &self.bounds[first..];
-        let count = taken.len().max(1) as f64;
+        let block_bounds = &self.bounds[first..];
+        let count = block_bounds.len().max(1) as f64;
         center.iter_mut().for_each(|c| *c /= count);
-        let mean = taken.iter().sum::<f64>() / count;
-        let variance = taken.iter().map(|b| (b - mean).powi(2)).sum::<f64>() / count;
+        let mean = block_bounds.iter().sum::<f64>() / count;
+        let variance = block_bounds.iter().map(|b| (b - mean).powi(2)).sum::<f64>() / count;
         // A bound that grows without end leaves the range of numbers.
         if end == End::Whole && !variance.is_finite() {
             end = End::Refused;
@@ -292,9 +292,9 @@ impl Ascent<'_> {
         let (mut sum, mut sound) = (0.0, 0);
         self.slope.fill(0.0);
         for count in counts(self.settings.samples) {
-            let Rows { z, x, g, own } = &mut self.rows;
+            let Rows { z, x, g, memory } = &mut self.rows;
             z.iter_mut().flatten().for_each(|z| *z = stream.normal());
-            let log_q = self.member.place(z, x, own);
+            let log_q = self.member.place(z, x, memory);
             let log_p = batch.evaluate(x, g, count)?;
             let is_sound: [bool; LANES] = std::array::from_fn(|l| l < count && log_p[l].is_finite());
             for l in (0..LANES).filter(|l| is_sound[*l]) {
@@ -306,7 +306,7 @@ impl Ascent<'_> {
                     g.iter_mut().zip(is_sound).for_each(|(g, s)| *g = if s { *g } else { 0.0 })
                 });
             }
-            self.member.add_gradient(z, g, &is_sound, &mut self.slope, own);
+            self.member.add_gradient(z, g, &is_sound, &mut self.slope, memory);
         }
         if 2 * sound < self.settings.samples {
             return Ok(false);
@@ -324,10 +324,10 @@ impl Ascent<'_> {
     ) -> Result<Check, Elsewhere> {
         let mut stream = Stream::new(self.seed, self.number, Purpose::Check as u128, 0);
         let mut ratios = Vec::with_capacity(CHECKS);
-        let Rows { z, x, g, own } = &mut self.rows;
+        let Rows { z, x, g, memory } = &mut self.rows;
         for count in counts(CHECKS) {
             z.iter_mut().flatten().for_each(|z| *z = stream.normal());
-            let log_q = self.member.place(z, x, own);
+            let log_q = self.member.place(z, x, memory);
             let log_p = batch.evaluate(x, g, count)?;
             ratios.extend(log_p.iter().zip(log_q).take(count).map(|(p, q)| p - q));
         }
@@ -377,7 +377,7 @@ mod tests {
     use crate::hamiltonian::metric::cholesky;
     use crate::hamiltonian::potential::tests::By;
     use crate::hamiltonian::{Cause, Stop};
-    use crate::variational::batch::tests::Nothing;
+    use crate::variational::batch::tests::Uncovered;
 
     const PRECISION: [f64; 9] = [2.0, 0.9, 0.0, 0.9, 1.0, -0.2, 0.0, -0.2, 0.5];
 
@@ -402,9 +402,9 @@ mod tests {
     }
 
     fn fitted(family: Family) -> Fit {
-        let (mut target, mut nothing) = (correlated(), Nothing);
+        let (mut target, mut wide) = (correlated(), Uncovered);
         let start = Normal::diagonal(vec![0.0, 0.0, 27.0], vec![1.0; 3]);
-        ascend(&mut Batch::new(&mut target, &mut nothing), &start, &settings(family), 3, 0, &|_| true)
+        ascend(&mut Batch::new(&mut target, &mut wide), &start, &settings(family), 3, 0, &|_| true)
             .expect("one structure")
     }
 
@@ -437,8 +437,8 @@ mod tests {
                 g[0] = -x[0].sin();
                 Ok(x[0].cos() - log_norm)
             });
-            let (mut nothing, start) = (Nothing, Normal::diagonal(vec![0.5], vec![0.1]));
-            let mut batch = Batch::new(&mut target, &mut nothing).around(vec![0]);
+            let (mut wide, start) = (Uncovered, Normal::diagonal(vec![0.5], vec![0.1]));
+            let mut batch = Batch::new(&mut target, &mut wide).around(vec![0]);
             let fit = ascend(&mut batch, &start, &settings(family), 3, 0, &|_| true).expect("one structure");
             let last = &fit.bounds[fit.bounds.len() - 200..];
             let mean = last.iter().sum::<f64>() / 200.0;
@@ -454,8 +454,8 @@ mod tests {
             g[0] = 2.0 * x[0];
             if x[0].abs() > 5.0 { Ok(f64::NAN) } else { Ok(x[0] * x[0]) }
         });
-        let (mut nothing, start) = (Nothing, Normal::diagonal(vec![0.0], vec![0.1]));
-        let mut batch = Batch::new(&mut target, &mut nothing);
+        let (mut wide, start) = (Uncovered, Normal::diagonal(vec![0.0], vec![0.1]));
+        let mut batch = Batch::new(&mut target, &mut wide);
         let longer = Settings { steps: 20_000, ..settings(Family::MeanField) };
         let fit = ascend(&mut batch, &start, &longer, 1, 0, &|_| true).expect("one structure");
         let broke = fit.broke.expect("the ascent leaves the numbers");
@@ -466,14 +466,14 @@ mod tests {
             g[0] = 4.0 * x[0].powi(3);
             Ok(x[0].powi(4))
         });
-        let mut batch = Batch::new(&mut target, &mut nothing);
+        let mut batch = Batch::new(&mut target, &mut wide);
         let longer = Settings { steps: 200_000, ..settings(Family::MeanField) };
         let fit = ascend(&mut batch, &start, &longer, 1, 0, &|_| true).expect("one structure");
         assert!(fit.broke.is_some() && fit.normal.log_det.is_finite());
         let stop = Stop { cause: Cause::Guard, place: 0 };
         let mut elsewhere = By(1, |_: &[f64], _: &mut [f64]| Err(stop));
-        let mut batch = Batch::new(&mut elsewhere, &mut nothing);
-        let found = ascend(&mut batch, &start, &settings(Family::MeanField), 1, 0, &|_| true);
-        assert!(found.is_err());
+        let mut batch = Batch::new(&mut elsewhere, &mut wide);
+        let outcome = ascend(&mut batch, &start, &settings(Family::MeanField), 1, 0, &|_| true);
+        assert!(outcome.is_err());
     }
 }

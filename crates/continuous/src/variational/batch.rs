@@ -36,7 +36,7 @@ pub struct Batch<'a, P, W> {
     /// The target.
     pub target: &'a mut P,
     wide: &'a mut W,
-    one: (Vec<f64>, Vec<f64>),
+    point: (Vec<f64>, Vec<f64>),
     /// Its coordinates that are angles: with them its density repeats every turn.
     pub angles: Vec<usize>,
     /// Gradients taken.
@@ -46,14 +46,14 @@ pub struct Batch<'a, P, W> {
 }
 
 impl<'a, P: Potential, W: Wide<LANES>> Batch<'a, P, W> {
-    /// Of a target, and its density over lanes.
+    /// A batch of draws of a target, with its density over lanes.
     pub fn new(target: &'a mut P, wide: &'a mut W) -> Self {
         let none = vec![0.0; target.dim()];
-        let one = (none.clone(), none);
-        Batch { target, wide, one, angles: vec![], gradients: 0, refused: None }
+        let point = (none.clone(), none);
+        Batch { target, wide, point, angles: vec![], gradients: 0, refused: None }
     }
 
-    /// The same, where these coordinates are angles.
+    /// The batch, in which these coordinates are angles.
     #[must_use]
     pub fn around(self, angles: Vec<usize>) -> Self {
         Batch { angles, ..self }
@@ -72,7 +72,7 @@ impl<'a, P: Potential, W: Wide<LANES>> Batch<'a, P, W> {
             if covered[l] && finite[l] && values[l].is_finite() {
                 continue;
             }
-            let (at, slope) = &mut self.one;
+            let (at, slope) = &mut self.point;
             at.iter_mut().zip(x).for_each(|(at, row)| *at = row[l]);
             values[l] = match evaluate(self.target, at, slope) {
                 Ok(value) => value,
@@ -102,9 +102,9 @@ pub(super) mod tests {
     use crate::hamiltonian::potential::tests::By;
 
     /// A wide density that covers nothing, so that the target evaluates every draw.
-    pub struct Nothing;
+    pub struct Uncovered;
 
-    impl Wide<LANES> for Nothing {
+    impl Wide<LANES> for Uncovered {
         fn value_and_gradient(&mut self, _: &[Row], g: &mut [Row]) -> (Row, [bool; LANES]) {
             g.fill([0.0; LANES]);
             ([0.0; LANES], [false; LANES])
@@ -125,8 +125,8 @@ pub(super) mod tests {
                 x => Ok(x),
             }
         });
-        let (mut nothing, mut g) = (Nothing, [[0.0; LANES]]);
-        let mut batch = Batch::new(&mut halves, &mut nothing);
+        let (mut wide, mut g) = (Uncovered, [[0.0; LANES]]);
+        let mut batch = Batch::new(&mut halves, &mut wide);
         let mut x = [[3.0; LANES]];
         (x[0][1], x[0][2]) = (-0.5, 10.0);
         let values = batch.evaluate(&x, &mut g, 4).expect("one structure");

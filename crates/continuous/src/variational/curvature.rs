@@ -18,7 +18,7 @@ const MEMORY: usize = 6;
 /// A step along which the slope changes less than this share of its change's square says nothing about curvature.
 const FLAT: f64 = 1e-12;
 
-/// What the steps of an ascent say about its curvature.
+/// The curvature of a target, estimated from the steps of an ascent.
 #[derive(Clone, Debug)]
 pub struct Curvature {
     /// The diagonal to start from: variances.

@@ -22,7 +22,7 @@ use super::batch::{Row, add};
 use super::normal::{Normal, Scale};
 use super::turns::Turns;
 
-/// Which normals there are.
+/// A family of normals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
     /// `L` is a diagonal.
@@ -154,10 +154,10 @@ impl Member {
                 for i in (0..dim).rev() {
                     let row = &shape[i * (i + 1) / 2..][..=i];
                     let scale = (-row[i]).exp();
-                    let (before, own) = w.split_at_mut(i);
-                    own[0].iter_mut().for_each(|w| *w *= scale);
-                    before.iter_mut().zip(row).for_each(|(w, l)| add(w, -l, &own[0]));
-                    add(&mut h[i], 1.0, &own[0]);
+                    let (before, rest) = w.split_at_mut(i);
+                    rest[0].iter_mut().for_each(|w| *w *= scale);
+                    before.iter_mut().zip(row).for_each(|(w, l)| add(w, -l, &rest[0]));
+                    add(&mut h[i], 1.0, &rest[0]);
                 }
             }
         }
@@ -200,9 +200,9 @@ impl Member {
                     let row = &shape[k * (k + 1) / 2..][..=k];
                     for i in 0..dim {
                         let s = base[i * dim + k];
-                        let (own, of) = (&mut product[i * dim..], &row[..k]);
-                        own.iter_mut().zip(of).for_each(|(x, l)| *x += s * l);
-                        own[k] += s * row[k].exp();
+                        let (product_row, triangle_row) = (&mut product[i * dim..], &row[..k]);
+                        product_row.iter_mut().zip(triangle_row).for_each(|(x, l)| *x += s * l);
+                        product_row[k] += s * row[k].exp();
                     }
                 }
                 Normal { mean, scale: Scale::Dense(product), log_det: self.log_det() }
@@ -293,14 +293,17 @@ mod tests {
             }
             let mut slope = vec![0.0; member.parameters.len()];
             member.add_gradient(&z, &g, &[true; LANES], &mut slope, &mut memory);
-            for (k, found) in slope.iter().enumerate() {
+            for (k, derivative) in slope.iter().enumerate() {
                 let at = |h: f64| {
                     let mut moved = member.clone();
                     moved.parameters[k] += h;
                     ratio(&moved, &member)
                 };
                 let expected = (at(1e-5) - at(-1e-5)) / 2e-5;
-                assert!((found - expected).abs() < 1e-6 * (1.0 + expected.abs()), "{k} {found} {expected}");
+                assert!(
+                    (derivative - expected).abs() < 1e-6 * (1.0 + expected.abs()),
+                    "{k} {derivative} {expected}"
+                );
             }
         }
     }
@@ -310,11 +313,11 @@ mod tests {
         for family in [Family::MeanField, Family::FullRank] {
             let (member, z) = (member(family), draws());
             let (mut x, mut y) = (z.clone(), z.clone());
-            let own = member.place(&z, &mut x, &mut member.memory());
+            let member_log = member.place(&z, &mut x, &mut member.memory());
             let normal = member.normal();
             normal.place(&z, &mut y);
             assert!(x.iter().flatten().zip(y.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-12));
-            assert!(own.iter().zip(normal.log_density(&z)).all(|(a, b)| (a - b).abs() < 1e-12));
+            assert!(member_log.iter().zip(normal.log_density(&z)).all(|(a, b)| (a - b).abs() < 1e-12));
         }
     }
 

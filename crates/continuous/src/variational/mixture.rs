@@ -92,13 +92,13 @@ mod tests {
         let (mut z, mut stream) = (vec![[0.0; LANES]; 3], Stream::new(5, 0, 0, 0));
         let (mut x, mut back) = (z.clone(), z.clone());
         a.draw(&mut stream, &mut z, &mut x);
-        let own = a.log_density(&z);
+        let first = a.log_density(&z);
         b.whiten(&x, &[], &mut back);
         let other = b.log_density(&back);
         let (alone, both) = (log_density(&[&a], &[], &x), log_density(&[&a, &b], &[], &x));
         for l in 0..LANES {
-            assert!((alone[l] - own[l]).abs() < 1e-10);
-            let mean = (0.5 * (own[l].exp() + other[l].exp())).ln();
+            assert!((alone[l] - first[l]).abs() < 1e-10);
+            let mean = (0.5 * (first[l].exp() + other[l].exp())).ln();
             assert!((both[l] - mean).abs() < 1e-10);
         }
     }
@@ -107,7 +107,7 @@ mod tests {
     fn around_circles_the_density_integrates_to_one() {
         // Of one angle it is a function of the angle, so the integral over one turn, and over the line of the others, is one.
         let angles = [1];
-        let parts = normals().map(|one| one.in_order(&angles).expect("positive definite"));
+        let parts = normals().map(|normal| normal.in_order(&angles).expect("positive definite"));
         let (cells, turns) = (64_usize, 40_usize);
         let (width, step) = (0.5, TAU / turns as f64);
         let mut points = vec![];

@@ -140,9 +140,9 @@ impl Normal {
         Turns(angles.iter().enumerate().map(of).collect())
     }
 
-    /// The same normal, by numbers `z` each of which belongs to a coordinate given those before it, angles last: its matrix
-    /// is a lower triangle but for the order of its rows ([`order`]). Without angles as it is. `None` where rounding leaves
-    /// no triangle.
+    /// The normal in sequential form: each number `z` belongs to a coordinate given those before it, angles last. Its matrix
+    /// is a lower triangle but for the order of its rows ([`order`]). Without angles the normal stays as it is. `None` where
+    /// rounding leaves no triangle.
     pub fn in_order(&self, angles: &[usize]) -> Option<Normal> {
         if angles.is_empty() {
             return Some(self.clone());
@@ -204,14 +204,14 @@ impl Normal {
             Scale::Diagonal(deviation) => deviation.clone(),
             Scale::LowRank { deviation, basis, core } => {
                 let solved = solve_columns(core, basis);
-                let own = |i: usize| {
+                let marginal = |i: usize| {
                     let (before, after) = basis
                         .iter()
                         .zip(&solved)
                         .fold((0.0, 0.0), |(b, a), (q, s)| (b + q[i] * q[i], a + s[i] * s[i]));
                     deviation[i] / (1.0 - before + after).max(f64::MIN_POSITIVE).sqrt()
                 };
-                (0..self.dim()).map(own).collect()
+                (0..self.dim()).map(marginal).collect()
             }
             Scale::Dense(matrix) => matrix
                 .chunks_exact(self.dim().max(1))
@@ -321,23 +321,23 @@ fn orthonormal(columns: &[Vec<f64>]) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
     let inner = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let (mut basis, mut shares): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (vec![], vec![]);
     for column in columns {
-        let (mut rest, mut own) = (column.clone(), vec![0.0; basis.len()]);
+        let (mut rest, mut coefficients) = (column.clone(), vec![0.0; basis.len()]);
         for _ in 0..2 {
-            for (q, own) in basis.iter().zip(&mut own) {
+            for (q, coefficient) in basis.iter().zip(&mut coefficients) {
                 let along = inner(q, &rest);
                 rest.iter_mut().zip(q).for_each(|(x, q)| *x -= along * q);
-                *own += along;
+                *coefficient += along;
             }
         }
         let length = inner(&rest, &rest).sqrt();
         if length > DEPENDENT * inner(column, column).sqrt() {
             basis.push(rest.iter().map(|x| x / length).collect());
-            own.push(length);
+            coefficients.push(length);
         }
-        shares.push(own);
+        shares.push(coefficients);
     }
     let rank = basis.len();
-    shares.iter_mut().for_each(|own| own.resize(rank, 0.0));
+    shares.iter_mut().for_each(|coefficients| coefficients.resize(rank, 0.0));
     (basis, shares)
 }
 
@@ -381,10 +381,10 @@ mod tests {
         assert!((ordered.turns(&[1, 2]).0[1].1.powi(-2) - inverse_of(&expected(), 2)).abs() < 1e-9);
         let mut z = vec![[0.0; LANES]; 4];
         let mut stream = Stream::new(2, 0, 0, 0);
-        for one in [&normal, &ordered, &normal.nearest_diagonal()] {
+        for form in [&normal, &ordered, &normal.nearest_diagonal()] {
             let (mut x, mut back) = (z.clone(), z.clone());
-            one.draw(&mut stream, &mut z, &mut x);
-            one.whiten(&x, &[1, 2], &mut back);
+            form.draw(&mut stream, &mut z, &mut x);
+            form.whiten(&x, &[1, 2], &mut back);
             assert!(z.iter().flatten().zip(back.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-10));
         }
     }

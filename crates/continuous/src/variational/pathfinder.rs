@@ -30,7 +30,7 @@ const SLOPE: f64 = 0.9;
 /// Trials of one line search.
 const TRIALS: u32 = 30;
 
-/// What an ascent found.
+/// The result of an ascent.
 #[derive(Clone, Debug)]
 pub struct Path {
     /// The normal of the highest bound.
@@ -177,8 +177,8 @@ impl Draws {
         let Some(normal) = normal.in_order(&batch.angles) else { return Ok(f64::NEG_INFINITY) };
         normal.place(&self.z, &mut self.x);
         let values = batch.evaluate(&self.x, &mut self.g, LANES)?;
-        let own = normal.log_density_around(&self.z, &batch.angles);
-        let mean = values.iter().zip(own).map(|(p, q)| p - q).sum::<f64>() / LANES as f64;
+        let normal_log = normal.log_density_around(&self.z, &batch.angles);
+        let mean = values.iter().zip(normal_log).map(|(p, q)| p - q).sum::<f64>() / LANES as f64;
         Ok(if mean.is_nan() { f64::NEG_INFINITY } else { mean })
     }
 }
@@ -189,13 +189,13 @@ mod tests {
     use super::*;
     use crate::hamiltonian::Cause;
     use crate::hamiltonian::potential::tests::{By, normals};
-    use crate::variational::batch::tests::Nothing;
+    use crate::variational::batch::tests::Uncovered;
 
     #[test]
     fn a_normal_target_is_found() {
         let deviations = [1e-2, 1.0, 3.0, 40.0];
-        let (mut target, mut nothing) = (normals(deviations.to_vec()), Nothing);
-        let mut batch = Batch::new(&mut target, &mut nothing);
+        let (mut target, mut wide) = (normals(deviations.to_vec()), Uncovered);
+        let mut batch = Batch::new(&mut target, &mut wide);
         let path = pathfinder(&mut batch, &[3.0, -7.0, 20.0, 90.0], 1, 0, &|_| true).expect("a path");
         let covariance = path.normal.covariance();
         // `log Z` of this density is the sum of the logs of the deviations and of `log sqrt(2 pi)`.
@@ -217,9 +217,9 @@ mod tests {
             g[1..].iter_mut().zip(&x[1..]).for_each(|(g, x)| *g = -x * (-v).exp());
             Ok(-v * v / 18.0 - 4.0 * v - 0.5 * squares * (-v).exp())
         });
-        let (mut nothing, mut start) = (Nothing, [0.7; 9]);
+        let (mut wide, mut start) = (Uncovered, [0.7; 9]);
         start[0] = 1.0;
-        let path = pathfinder(&mut Batch::new(&mut target, &mut nothing), &start, 4, 0, &|_| true);
+        let path = pathfinder(&mut Batch::new(&mut target, &mut wide), &start, 4, 0, &|_| true);
         let path = path.expect("a path");
         let (best, last) = (path.bounds[path.best], path.bounds[path.bounds.len() - 1]);
         assert!(path.bounds.iter().all(|bound| *bound <= best));
@@ -232,17 +232,17 @@ mod tests {
     fn a_bad_start_and_a_draw_elsewhere_are_errors_and_a_stop_keeps_the_best() {
         let stop = Stop { cause: Cause::Impossible, place: 0 };
         let mut nowhere = By(1, |_: &[f64], _: &mut [f64]| Err(stop));
-        let mut nothing = Nothing;
-        let found = pathfinder(&mut Batch::new(&mut nowhere, &mut nothing), &[0.0], 1, 0, &|_| true);
-        assert_eq!(found.err(), Some(NoPath::Start(stop)));
+        let mut wide = Uncovered;
+        let outcome = pathfinder(&mut Batch::new(&mut nowhere, &mut wide), &[0.0], 1, 0, &|_| true);
+        assert_eq!(outcome.err(), Some(NoPath::Start(stop)));
         let mut half = By(1, |x: &[f64], g: &mut [f64]| {
             g[0] = -x[0];
             if x[0] > 0.0 { Ok(-0.5 * x[0] * x[0]) } else { Err(Stop { cause: Cause::Guard, place: 0 }) }
         });
-        let found = pathfinder(&mut Batch::new(&mut half, &mut nothing), &[0.1], 1, 0, &|_| true);
-        assert_eq!(found.err(), Some(NoPath::Elsewhere));
+        let outcome = pathfinder(&mut Batch::new(&mut half, &mut wide), &[0.1], 1, 0, &|_| true);
+        assert_eq!(outcome.err(), Some(NoPath::Elsewhere));
         let mut target = normals(vec![1.0]);
-        let path = pathfinder(&mut Batch::new(&mut target, &mut nothing), &[9.0], 1, 0, &|step| step < 2);
+        let path = pathfinder(&mut Batch::new(&mut target, &mut wide), &[9.0], 1, 0, &|step| step < 2);
         assert!(path.is_ok_and(|path| path.interrupted && path.bounds.len() == 2));
     }
 }

@@ -52,8 +52,8 @@ fn nuts_is_calibrated_with_every_metric() {
     for model in &MODELS {
         for shape in [Shape::Diagonal, Shape::Dense, Shape::LowRank] {
             let settings = settings(Length::NoUTurn { max_depth: 8 }, shape, 0.9);
-            let found = statistic(model, &settings, true);
-            assert!(found < LIMIT, "{} {shape:?}: {found}", model.name);
+            let largest = statistic(model, &settings, true);
+            assert!(largest < LIMIT, "{} {shape:?}: {largest}", model.name);
         }
     }
 }
@@ -62,8 +62,8 @@ fn nuts_is_calibrated_with_every_metric() {
 fn hmc_is_calibrated() {
     for model in &MODELS {
         let settings = settings(Length::Fixed { steps: 20, jitter: 0.5 }, Shape::Diagonal, 0.9);
-        let found = statistic(model, &settings, true);
-        assert!(found < LIMIT, "{}: {found}", model.name);
+        let largest = statistic(model, &settings, true);
+        assert!(largest < LIMIT, "{}: {largest}", model.name);
     }
 }
 
@@ -71,7 +71,7 @@ fn hmc_is_calibrated() {
 fn a_dropped_jacobian_is_found() {
     for model in &MODELS {
         let settings = settings(Length::NoUTurn { max_depth: 8 }, Shape::Diagonal, 0.9);
-        let found = statistic(model, &settings, false);
-        assert!(found > LIMIT, "{}: {found}", model.name);
+        let largest = statistic(model, &settings, false);
+        assert!(largest > LIMIT, "{}: {largest}", model.name);
     }
 }

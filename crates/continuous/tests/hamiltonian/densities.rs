@@ -56,7 +56,7 @@ pub struct Model {
     pub draw: fn(&mut Stream) -> (Vec<f64>, Vec<f64>),
     /// The density of the parameters given data; without its Jacobian it is a mutant.
     pub posterior: fn(Vec<f64>, bool) -> By,
-    /// What ranks are taken of, from unconstrained parameters.
+    /// The statistics that are ranked, from unconstrained parameters.
     pub watched: fn(&[f64]) -> Vec<f64>,
 }
 
@@ -176,8 +176,8 @@ fn gradients_agree_with_differences() {
                 let mut target = (model.posterior)(y.clone(), jacobian);
                 let mut value = |x: &[f64]| {
                     let mut g = vec![0.0; x.len()];
-                    let found = target.value_and_gradient(x, &mut g).expect("runs");
-                    (found, g)
+                    let log_density = target.value_and_gradient(x, &mut g).expect("runs");
+                    (log_density, g)
                 };
                 let (_, g) = value(&x);
                 for i in 0..x.len() {

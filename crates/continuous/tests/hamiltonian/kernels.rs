@@ -40,8 +40,8 @@ fn statistic<P: Potential>(
         let drawn = (model.watched)(&x);
         counts.resize(drawn.len(), [0.0; RANKS]);
         for (k, value) in drawn.iter().enumerate() {
-            let others = states.iter().map(|state| state[k]);
-            counts[k][rank(*value, others, &mut stream)] += 1.0;
+            let watched = states.iter().map(|state| state[k]);
+            counts[k][rank(*value, watched, &mut stream)] += 1.0;
         }
     }
     counts.iter().map(|counts| chi_square(counts)).fold(0.0, f64::max)
@@ -82,8 +82,8 @@ fn every_kernel_leaves_every_model_as_it_is_in_every_metric() {
     for model in &MODELS {
         for (kernel_name, kernel) in kernels() {
             for (metric_name, metric) in metrics() {
-                let found = statistic(model, |y| (model.posterior)(y, true), &kernel, &metric, STEP, 4000);
-                assert!(found < LIMIT, "{} {kernel_name} {metric_name}: {found}", model.name);
+                let largest = statistic(model, |y| (model.posterior)(y, true), &kernel, &metric, STEP, 4000);
+                assert!(largest < LIMIT, "{} {kernel_name} {metric_name}: {largest}", model.name);
             }
         }
     }
@@ -93,7 +93,7 @@ fn every_kernel_leaves_every_model_as_it_is_in_every_metric() {
 fn a_dropped_jacobian_is_found() {
     for model in &MODELS {
         for (name, kernel) in kernels() {
-            let found = statistic(
+            let largest = statistic(
                 model,
                 |y| (model.posterior)(y, false),
                 &kernel,
@@ -101,7 +101,7 @@ fn a_dropped_jacobian_is_found() {
                 STEP,
                 MUTANT_CHAINS,
             );
-            assert!(found > LIMIT, "{} {name}: {found}", model.name);
+            assert!(largest > LIMIT, "{} {name}: {largest}", model.name);
         }
     }
 }
@@ -111,8 +111,8 @@ fn a_wrong_sign_in_the_acceptance_is_found() {
     for model in &MODELS {
         for (name, kernel) in kernels() {
             let make = |y| Negated((model.posterior)(y, true));
-            let found = statistic(model, make, &kernel, &Metric::unit, STEP, MUTANT_CHAINS);
-            assert!(found > LIMIT, "{} {name}: {found}", model.name);
+            let largest = statistic(model, make, &kernel, &Metric::unit, STEP, MUTANT_CHAINS);
+            assert!(largest > LIMIT, "{} {name}: {largest}", model.name);
         }
     }
 }
@@ -125,9 +125,9 @@ fn a_momentum_of_another_metric_is_found() {
     let mutant = |dim: usize| Metric::Diagonal { variance: vec![1.0; dim], deviation: vec![4.0; dim] };
     for model in &MODELS {
         for (name, kernel) in kernels() {
-            let found =
+            let largest =
                 statistic(model, |y| (model.posterior)(y, true), &kernel, &mutant, STEP, MUTANT_CHAINS);
-            assert!(found > LIMIT, "{} {name}: {found}", model.name);
+            assert!(largest > LIMIT, "{} {name}: {largest}", model.name);
         }
     }
 }

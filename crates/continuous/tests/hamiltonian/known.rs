@@ -11,7 +11,7 @@ struct Known {
     name: &'static str,
     dim: usize,
     target: fn() -> By,
-    /// What is averaged, from unconstrained coordinates.
+    /// The statistics that are averaged, from unconstrained coordinates.
     watched: fn(&[f64]) -> Vec<f64>,
     means: Vec<f64>,
 }
@@ -181,8 +181,8 @@ fn every_setting() -> [Settings; 5] {
 fn means_are_found() {
     for known in all() {
         for settings in every_setting() {
-            let found = distance(&known, |_| (known.target)(), &settings);
-            assert!(found < 4.5, "{} {settings:?}: {found}", known.name);
+            let deviation = distance(&known, |_| (known.target)(), &settings);
+            assert!(deviation < 4.5, "{} {settings:?}: {deviation}", known.name);
         }
     }
 }
@@ -212,7 +212,7 @@ fn a_target_a_little_to_the_right_is_found() {
             continue;
         }
         let settings = Settings { warmup: 500, draws: DRAWS as u32, ..Settings::nuts() };
-        let found = distance(&known, |_| Shifted((known.target)()), &settings);
-        assert!(found > 4.5, "{}: {found}", known.name);
+        let deviation = distance(&known, |_| Shifted((known.target)()), &settings);
+        assert!(deviation > 4.5, "{}: {deviation}", known.name);
     }
 }

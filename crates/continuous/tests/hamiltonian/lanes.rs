@@ -27,9 +27,9 @@ impl Potential for Banana {
     }
 }
 
-/// The same over lanes. Points with `y` above `top` are not covered.
+/// The banana over lanes. Points with `y` above `top` are not covered.
 struct Bananas {
-    one: Banana,
+    single: Banana,
     top: f64,
     evaluated: u64,
 }
@@ -39,7 +39,7 @@ impl<const L: usize> Wide<L> for Bananas {
         let (mut values, mut covered) = ([f64::NAN; L], [false; L]);
         for l in 0..L {
             let mut slope = [f64::NAN; 2];
-            if let Ok(value) = self.one.value_and_gradient(&[x[0][l], x[1][l]], &mut slope) {
+            if let Ok(value) = self.single.value_and_gradient(&[x[0][l], x[1][l]], &mut slope) {
                 (values[l], covered[l]) = (value, x[1][l] <= self.top);
             }
             // Lanes that are not covered have no meaning.
@@ -84,7 +84,7 @@ fn a_lane_gives_what_its_chain_gives_alone() {
         assert!(suits(&settings));
         let alone: Vec<Draws> =
             chains(&settings, 1.0).into_iter().map(|chain| run(chain, &settings, &|_| true)).collect();
-        let mut wide = Bananas { one: Banana { curve: 1.0 }, top, evaluated: 0 };
+        let mut wide = Bananas { single: Banana { curve: 1.0 }, top, evaluated: 0 };
         let together = run_in_lanes::<_, 8>(chains(&settings, 1.0), &mut wide, &settings, &|_, _| true);
         for (a, b) in alone.iter().zip(&together) {
             assert_eq!(bits(a), bits(b), "{jitter} {shape:?} {top}");
@@ -107,21 +107,21 @@ fn an_ascent_in_a_lane_is_the_ascent_alone() {
     for top in [f64::INFINITY, 0.5, f64::NEG_INFINITY] {
         // The last but one meets the corner without a gradient, the last the wall: their ascents end there.
         let starts = [[0.3, 1.5], [-1.0, -2.0], [1.5, 0.1], [0.2, -2.6], [1.9, 0.0]];
-        let (mut one, mut wide) =
-            (Banana { curve: 1.0 }, Bananas { one: Banana { curve: 1.0 }, top, evaluated: 0 });
+        let (mut target, mut wide) =
+            (Banana { curve: 1.0 }, Bananas { single: Banana { curve: 1.0 }, top, evaluated: 0 });
         let mut alone: Vec<Vec<f64>> = starts.iter().map(|start| start.to_vec()).collect();
-        let taken: Vec<u32> = alone.iter_mut().map(|x| climb(&mut one, x, 50)).collect();
-        let mut targets = vec![one; starts.len()];
+        let steps_alone: Vec<u32> = alone.iter_mut().map(|x| climb(&mut target, x, 50)).collect();
+        let mut targets = vec![target; starts.len()];
         let mut tops: Vec<Vec<f64>> = starts.iter().map(|start| start.to_vec()).collect();
-        let found = climb_in_lanes::<8>(
+        let steps_in_lanes = climb_in_lanes::<8>(
             &mut targets.iter_mut().collect::<Vec<_>>(),
             &mut tops.iter_mut().collect::<Vec<_>>(),
             &mut wide,
             50,
         );
-        assert_eq!((&alone, &taken), (&tops, &found), "{top}");
-        assert!(taken[..2].iter().all(|&steps| steps > 1), "{taken:?}");
-        assert_eq!((taken[3..].to_vec(), &tops[4]), (vec![1, 1], &starts[4].to_vec()));
+        assert_eq!((&alone, &steps_alone), (&tops, &steps_in_lanes), "{top}");
+        assert!(steps_alone[..2].iter().all(|&steps| steps > 1), "{steps_alone:?}");
+        assert_eq!((steps_alone[3..].to_vec(), &tops[4]), (vec![1, 1], &starts[4].to_vec()));
     }
 }
 
@@ -129,7 +129,7 @@ fn an_ascent_in_a_lane_is_the_ascent_alone() {
 fn a_wide_density_that_is_another_one_is_found_out() {
     let settings = settings(0.5, Shape::Diagonal);
     let alone = chains(&settings, 1.0).into_iter().map(|chain| run(chain, &settings, &|_| true));
-    let mut wide = Bananas { one: Banana { curve: 1.0 + 1e-12 }, top: f64::INFINITY, evaluated: 0 };
+    let mut wide = Bananas { single: Banana { curve: 1.0 + 1e-12 }, top: f64::INFINITY, evaluated: 0 };
     let together = run_in_lanes::<_, 8>(chains(&settings, 1.0), &mut wide, &settings, &|_, _| true);
     assert!(alone.zip(&together).all(|(a, b)| bits(&a) != bits(b)));
 }
@@ -137,11 +137,11 @@ fn a_wide_density_that_is_another_one_is_found_out() {
 #[test]
 fn lanes_can_be_stopped_one_by_one() {
     let settings = settings(0.0, Shape::Unit);
-    let mut wide = Bananas { one: Banana { curve: 1.0 }, top: f64::INFINITY, evaluated: 0 };
-    let found = run_in_lanes::<_, 8>(chains(&settings, 1.0), &mut wide, &settings, &|chain, done| {
+    let mut wide = Bananas { single: Banana { curve: 1.0 }, top: f64::INFINITY, evaluated: 0 };
+    let ended = run_in_lanes::<_, 8>(chains(&settings, 1.0), &mut wide, &settings, &|chain, done| {
         chain != 1 || done < 150
     });
-    let ends: Vec<(bool, usize)> = found.iter().map(|draws| (draws.interrupted, draws.len())).collect();
+    let ends: Vec<(bool, usize)> = ended.iter().map(|draws| (draws.interrupted, draws.len())).collect();
     assert_eq!(ends, [(false, 60), (true, 20), (false, 60), (false, 60), (false, 60)]);
 }
 

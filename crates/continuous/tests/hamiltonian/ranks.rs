@@ -3,9 +3,9 @@
 use niwaki_math::Stream;
 
 /// How many of `others` lie below `value`; ties are broken by a fair draw of their order.
-pub fn rank(value: f64, others: impl Iterator<Item = f64>, stream: &mut Stream) -> usize {
+pub fn rank(value: f64, draws: impl Iterator<Item = f64>, stream: &mut Stream) -> usize {
     let (mut below, mut ties) = (0, 0);
-    for other in others {
+    for other in draws {
         below += usize::from(other < value);
         ties += usize::from(other == value);
     }
