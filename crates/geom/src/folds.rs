@@ -123,8 +123,8 @@ pub(crate) fn folds(mesh: &TriMesh) -> Vec<Fold> {
         let facing = || part.iter().map(|i| normal.dot(areas[*i as usize]));
         let (front, back) =
             (facing().map(|a| a.max(0.0)).sum::<f64>(), facing().map(|a| (-a).max(0.0)).sum::<f64>());
-        let nothing = NOTHING * (front + back);
-        if back > nothing && front > nothing && (front - back).abs() > nothing {
+        let threshold = NOTHING * (front + back);
+        if back > threshold && front > threshold && (front - back).abs() > threshold {
             let border = border(part.iter().map(|i| &triangles[*i as usize]));
             folds.push(Fold { triangles: part, border });
         }

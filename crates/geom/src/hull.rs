@@ -136,9 +136,9 @@ mod tests {
             let far = vec3(0.3, 0.7, 0.5) * 2.0_f64.powi(k);
             let ring = (0..7).map(|i| f64::from(i) * 0.9).map(|x| vec3(x.sin(), 0.0, x.cos()));
             let points: Vec<Vec3> = ring.chain([vec3(0.0, 1.0, 0.0)]).map(|p| p + far).collect();
-            let found = hull(&points);
-            assert!(found.as_ref().is_none_or(|hull| hull.faces.iter().all(|face| face.len() > 2)), "{k}");
-            assert!(found.is_some() || k > 15, "{k}");
+            let outcome = hull(&points);
+            assert!(outcome.as_ref().is_none_or(|hull| hull.faces.iter().all(|face| face.len() > 2)), "{k}");
+            assert!(outcome.is_some() || k > 15, "{k}");
         }
     }
 }

@@ -16,7 +16,7 @@ pub(crate) fn ring(sides: usize) -> impl Iterator<Item = (f64, f64)> {
 
 /// A round end of a limb: a regular polygon in the plane through `center` with unit `normal`.
 ///
-/// The first vertex lies where the smallest turn from +y to the normal takes +z, so that a ring is a function of its
+/// The first vertex lies where the smallest turn from +y to the normal takes +z. So a ring is a function of its
 /// centre, normal and radius, and two limbs that name the same ring share its vertices to the bit.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Ring {

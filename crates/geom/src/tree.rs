@@ -125,8 +125,8 @@ impl<T: Clone + Boxed> BoxTree<T> {
 
     /// Calls `f` with every item.
     pub fn each(&self, mut f: impl FnMut(&T)) {
-        let everything = Aabb { low: Aabb::EMPTY.high, high: Aabb::EMPTY.low };
-        self.visit(&everything, &mut f);
+        let space = Aabb { low: Aabb::EMPTY.high, high: Aabb::EMPTY.low };
+        self.visit(&space, &mut f);
     }
 }
 
@@ -331,11 +331,14 @@ mod tests {
             tree.insert(Item(cube(k), k));
             list.push(k);
             if k % 3 == 2 {
-                let gone = list.remove((k as usize * 7) % list.len());
+                let removed = list.remove((k as usize * 7) % list.len());
                 let before = tree.clone();
-                assert_eq!(tree.remove(&cube(gone), |item| item.1 == gone).map(|item| item.1), Some(gone));
-                assert!(tree.remove(&cube(gone), |item| item.1 == gone).is_none());
-                assert!(near_items(&before, &cube(gone)).contains(&gone));
+                assert_eq!(
+                    tree.remove(&cube(removed), |item| item.1 == removed).map(|item| item.1),
+                    Some(removed)
+                );
+                assert!(tree.remove(&cube(removed), |item| item.1 == removed).is_none());
+                assert!(near_items(&before, &cube(removed)).contains(&removed));
             }
             let near = cube(k * 13 + 5);
             let expected: Vec<u64> = list.iter().copied().filter(|i| cube(*i).meets(&near)).collect();

@@ -189,13 +189,13 @@ fn similarity_by_hand(greys: &[u8], [columns, rows]: [usize; 2], on: &[bool]) ->
 }
 
 fn any_primitive(dice: &mut Dice) -> Primitive {
-    let one = |dice: &mut Dice| match dice.below(9) {
+    let shape = |dice: &mut Dice| match dice.below(9) {
         0 => any_shape(dice, 2.0),
         n if n < 5 => ellipse(dice, 2.4).shape,
         _ => stroke(dice, 2.4).shape,
     };
     let count = if dice.below(4) == 0 { 3 } else { 1 };
-    Primitive::new((0..count).map(|_| one(dice)).collect::<Vec<Shape>>())
+    Primitive::new((0..count).map(|_| shape(dice)).collect::<Vec<Shape>>())
 }
 
 /// Random additions, removals and copies; after each the sketch is the one of its primitives in another order.
@@ -214,8 +214,8 @@ fn history<T: Sketch + Clone + PartialEq>(
             sketch.add(&primitive);
             held.push(primitive);
         } else if step > 20 {
-            let gone = held.swap_remove(dice.below(held.len()));
-            assert!(sketch.remove(&gone));
+            let removed = held.swap_remove(dice.below(held.len()));
+            assert!(sketch.remove(&removed));
         }
         if dice.below(6) == 0 {
             copies.push((sketch.clone(), sketch.log_score()));

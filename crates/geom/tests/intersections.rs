@@ -66,12 +66,12 @@ fn convex_solids_agree_with_a_search_for_a_common_point() {
     for pair in 0..4000 {
         let (a, b) = (convex(&mut dice), convex(&mut dice));
         let depth = depth(&a, &b);
-        let found = intersects(&a, &b, Rule::Solid);
-        assert_eq!(found, intersects(&b, &a, Rule::Solid), "pair {pair}");
+        let answer = intersects(&a, &b, Rule::Solid);
+        assert_eq!(answer, intersects(&b, &a, Rule::Solid), "pair {pair}");
         assert_eq!(intersects(&a, &b, Rule::Surface), intersects(&b, &a, Rule::Surface), "pair {pair}");
         if depth.abs() > 1e-5 {
-            assert_eq!(found, depth < 0.0, "pair {pair}: {depth}\n{a:?}\n{b:?}");
-            *(if found { &mut overlapping } else { &mut apart }) += 1;
+            assert_eq!(answer, depth < 0.0, "pair {pair}: {depth}\n{a:?}\n{b:?}");
+            *(if answer { &mut overlapping } else { &mut apart }) += 1;
         }
     }
     assert!(apart > 800 && overlapping > 800, "{apart} {overlapping}");
@@ -140,14 +140,14 @@ fn two_boxes_agree_with_the_code_for_all_convex_solids() {
             }
             b = moved(if dice.below(2) == 0 { least } else { most });
         }
-        let found = intersects(&a, &b, Rule::Solid);
-        assert_eq!(found, intersects(&b, &a, Rule::Solid), "pair {pair}");
+        let answer = intersects(&a, &b, Rule::Solid);
+        assert_eq!(answer, intersects(&b, &a, Rule::Solid), "pair {pair}");
         // Corners are rounded to about 1e-16 of their distance from the origin, which is a share of the thinner box.
         let rounding = 1e-4 * SOLID_TOLERANCE + 3e-15 * (far + 3.0) / a.thickness().min(b.thickness());
         let [more, less] = [1.0, -1.0].map(|sign| general(&b, SOLID_TOLERANCE + sign * rounding));
         if more == less {
-            assert_eq!(found, more, "pair {pair}\n{a:?}\n{b:?}");
-            *(if found { &mut overlapping } else { &mut apart }) += 1;
+            assert_eq!(answer, more, "pair {pair}\n{a:?}\n{b:?}");
+            *(if answer { &mut overlapping } else { &mut apart }) += 1;
         } else {
             at_the_tolerance += 1;
         }
@@ -204,9 +204,9 @@ fn the_order_does_not_matter_even_at_the_tolerance() {
         // Overlap by a millionth of the size, give or take rounding.
         let a = cube(at, 1.0, Some(turn));
         let b = cube(at + turn.apply(vec3(1.0 - 1e-6, 0.2, 0.1)), 1.0, Some(turn));
-        let found = intersects(&a, &b, Rule::Solid);
-        overlapping += usize::from(found);
-        assert_eq!(found, intersects(&b, &a, Rule::Solid));
+        let answer = intersects(&a, &b, Rule::Solid);
+        overlapping += usize::from(answer);
+        assert_eq!(answer, intersects(&b, &a, Rule::Solid));
         let (p, q) = (copy(&a), copy(&b));
         for rule in [Rule::Solid, Rule::Surface] {
             assert_eq!(intersects(&p, &q, rule), intersects(&q, &p, rule));
@@ -225,12 +225,12 @@ fn meshes_agree_with_the_convex_solids_they_copy() {
         if depth(&a, &b).abs() < 5e-3 {
             continue;
         }
-        let found = intersects(&a, &b, Rule::Solid);
+        let answer = intersects(&a, &b, Rule::Solid);
         for (p, q) in [(copy(&a), b.clone()), (a.clone(), copy(&b)), (copy(&a), copy(&b))] {
-            assert_eq!(intersects(&p, &q, Rule::Solid), found, "pair {pair}");
-            assert_eq!(intersects(&q, &p, Rule::Solid), found, "pair {pair}");
+            assert_eq!(intersects(&p, &q, Rule::Solid), answer, "pair {pair}");
+            assert_eq!(intersects(&q, &p, Rule::Solid), answer, "pair {pair}");
         }
-        *(if found { &mut overlapping } else { &mut apart }) += 1;
+        *(if answer { &mut overlapping } else { &mut apart }) += 1;
     }
     assert!(apart > 300 && overlapping > 300, "{apart} {overlapping}");
 }

@@ -59,7 +59,7 @@ fn results_do_not_depend_on_the_store() {
     let shapes: Vec<Shape> = (0..60).map(|_| shape(&mut dice, 2.0)).collect();
     let grid =
         Grid::around(&shapes.iter().fold(niwaki_geom::Aabb::EMPTY, |b, s| b.union(s.aabb())), 0.2).unwrap();
-    let mut found = [0; 2];
+    let mut answers = [0; 2];
     for a in &shapes {
         let cells = Voxels::of(a, &grid).map(|voxels| voxels.count());
         store::empty();
@@ -69,11 +69,11 @@ fn results_do_not_depend_on_the_store() {
                 let answer = intersects(a, b, rule);
                 store::empty();
                 assert_eq!(intersects(a, b, rule), answer);
-                found[usize::from(answer)] += 1;
+                answers[usize::from(answer)] += 1;
             }
         }
     }
-    assert!(found[0] > 500 && found[1] > 500, "{found:?}");
+    assert!(answers[0] > 500 && answers[1] > 500, "{answers:?}");
 }
 
 #[test]

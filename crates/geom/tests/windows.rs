@@ -74,8 +74,8 @@ fn by_pixels(
     all
 }
 
-fn uncovered(wanted: bool, covered: bool) -> [f64; 2] {
-    [f64::from(wanted && !covered), f64::from(!wanted && !covered)]
+fn uncovered(is_drawn: bool, covered: bool) -> [f64; 2] {
+    [f64::from(is_drawn && !covered), f64::from(!is_drawn && !covered)]
 }
 
 fn any_page(dice: &mut Dice) -> Page {
@@ -383,8 +383,8 @@ fn windows_depend_on_the_scene_alone() {
             later.add(&primitive);
             held.push(primitive);
         } else {
-            let gone = held.swap_remove(dice.below(held.len()));
-            assert!(first.remove(&gone) && later.remove(&gone));
+            let removed = held.swap_remove(dice.below(held.len()));
+            assert!(first.remove(&removed) && later.remove(&removed));
         }
         let place = any_place(&mut dice, 2.0);
         let mut fresh = Sketches::start(&specs);

@@ -180,21 +180,21 @@ fn counted(
     rows: Rows,
     mut change: impl FnMut(usize, &Slab) -> Slab,
 ) -> [i64; 2] {
-    let mut all = [Ones::default(); 2];
+    let mut all = [BitCounts::default(); 2];
     rows.any_slab(voxels, |slab, cells| {
         let changed = change(slab, cells);
         all[0].add(&changed);
         all[1].add(&both(&changed, target, slab));
         false
     });
-    all.map(Ones::sum)
+    all.map(BitCounts::sum)
 }
 
 /// Counts of set bits of up to eight slabs: each byte counts sixteen bits of a slab.
 #[derive(Clone, Copy, Default)]
-struct Ones([u64; 4]);
+struct BitCounts([u64; 4]);
 
-impl Ones {
+impl BitCounts {
     #[inline]
     fn add(&mut self, words: &Slab) {
         let twos = |word: u64| word.wrapping_sub(word >> 1 & 0x5555_5555_5555_5555);
@@ -220,17 +220,17 @@ impl Ones {
 #[cfg(test)]
 mod tests {
     //! Slabs are counted right up to a full brick.
-    use super::super::layout::ones;
-    use super::Ones;
+    use super::super::layout::set_bits;
+    use super::BitCounts;
 
     #[test]
     fn a_full_brick_has_4096_cells() {
-        let mut all = Ones::default();
+        let mut all = BitCounts::default();
         (0..8).for_each(|_| all.add(&[u64::MAX; 8]));
         assert_eq!(all.sum(), 4096);
         let words = std::array::from_fn(|k| 0x9e37_79b9_7f4a_7c15_u64.rotate_left(7 * k as u32) << k);
-        let mut some = Ones::default();
+        let mut some = BitCounts::default();
         some.add(&words);
-        assert_eq!(some.sum(), ones(&words));
+        assert_eq!(some.sum(), set_bits(&words));
     }
 }

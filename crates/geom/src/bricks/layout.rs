@@ -71,7 +71,7 @@ pub(super) fn both(cells: &Slab, target: &Plane, slab: usize) -> Slab {
 
 /// Number of set bits.
 #[inline]
-pub(super) fn ones(words: &Slab) -> i64 {
+pub(super) fn set_bits(words: &Slab) -> i64 {
     // At most 512: without a check at each word the loop is four instructions wide.
     words.iter().fold(0u64, |sum, word| sum.wrapping_add(u64::from(word.count_ones()))) as i64
 }

@@ -1,7 +1,7 @@
 //! A target volume: a mesh, and the cells that it fills.
 
 use super::brick::{Plane, any};
-use super::layout::{any_brick, both, bricks_of, ones, planes_of};
+use super::layout::{any_brick, both, bricks_of, planes_of, set_bits};
 use super::sums::{Sums, sums_of};
 use crate::error::GeomError;
 use crate::mesh::TriMesh;
@@ -79,7 +79,7 @@ impl Target {
         any_brick(voxels.cells, bricks_of(self.grid.dims()), |index, rows| {
             let target = &self.planes[index];
             rows.any_slab(voxels, |slab, cells| {
-                shared += ones(&both(cells, target, slab));
+                shared += set_bits(&both(cells, target, slab));
                 false
             })
         });

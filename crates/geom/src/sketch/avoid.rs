@@ -1,6 +1,6 @@
 //! Object avoidance: no cell may be filled by both the scene and an obstacle.
 //!
-//! The obstacle and each shape are voxelised as solids on the obstacle's own grid, conservatively, so that a scene
+//! The obstacle and each shape are voxelised as solids on the obstacle's own grid, conservatively. So a scene
 //! that is allowed never touches the obstacle and keeps up to two cells away from it (dissertation 5.5.1). The sketch
 //! keeps the number of primitives that share a cell with the obstacle. It is zero exactly when no primitive does, so no grid of
 //! the scene is needed.

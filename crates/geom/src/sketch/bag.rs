@@ -142,9 +142,9 @@ pub(crate) fn same_bag<T: Clone + Boxed>(
     of: impl Fn(&T) -> &Primitive,
 ) -> bool {
     let mut rest = a.clone();
-    let mut same = a.len() == b.len();
-    b.each(|item| same = same && rest.remove(item.aabb(), |p| of(p) == of(item)).is_some());
-    same
+    let mut is_equal = a.len() == b.len();
+    b.each(|item| is_equal = is_equal && rest.remove(item.aabb(), |p| of(p) == of(item)).is_some());
+    is_equal
 }
 
 #[cfg(test)]

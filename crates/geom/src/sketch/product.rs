@@ -196,8 +196,10 @@ impl Sketches {
 
     /// Becomes a copy of `other`, in place if both have sketches of the same kinds.
     pub fn become_copy(&mut self, other: &Sketches) {
-        let same = self.members.len() == other.members.len();
-        if !same || !self.members.iter_mut().zip(&other.members).all(|(to, from)| to.become_copy(from)) {
+        let has_equal_count = self.members.len() == other.members.len();
+        if !has_equal_count
+            || !self.members.iter_mut().zip(&other.members).all(|(to, from)| to.become_copy(from))
+        {
             *self = other.fork();
         }
     }
@@ -242,8 +244,8 @@ mod tests {
         let mut scene = Sketches::start(&specs);
         let empty = scene.log_score();
         assert_eq!(scene.add(&cube(0.0)), None);
-        let one = scene.log_score();
-        assert!(one > empty);
+        let single = scene.log_score();
+        assert!(single > empty);
         assert_eq!(scene.add(&cube(0.5)), Some("no_self_intersection"));
         assert_eq!(scene.log_score(), f64::NEG_INFINITY);
         assert_eq!(scene.add(&cube(1.5)), Some("no_self_intersection"));
@@ -254,13 +256,13 @@ mod tests {
         plain.add(&cube(0.0));
         assert_eq!(scene.log_score(), plain.log_score());
         assert!(scene.remove(&cube(1.5)));
-        assert_eq!(scene.log_score(), one);
+        assert_eq!(scene.log_score(), single);
         // The same by exchanges: one that is forbidden, and back.
         let (old, new) = ([cube(0.0)], [cube(1.5), cube(1.7)]);
         assert!(scene.exchange(old.iter(), new.iter()));
         assert_eq!(scene.forbidden_by(), Some("no_self_intersection"));
         assert!(scene.exchange(new.iter(), old.iter()));
-        assert_eq!((scene.log_score(), scene.forbidden_by()), (one, None));
+        assert_eq!((scene.log_score(), scene.forbidden_by()), (single, None));
         assert!(scene.remove(&cube(0.0)));
         assert_eq!(scene.log_score(), empty);
     }

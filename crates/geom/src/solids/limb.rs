@@ -82,13 +82,13 @@ pub(super) fn bent(
     radii: (f64, f64),
     normals: (Option<Vec3>, Option<Vec3>),
 ) -> Result<Limb, GeomError> {
-    for (what, p) in [("start", start), ("end", end)] {
+    for (end_name, p) in [("start", start), ("end", end)] {
         if !p.is_finite() {
-            return bad(format!("the {what} of a limb is {:?}, expected finite numbers", p.to_array()));
+            return bad(format!("the {end_name} of a limb is {:?}, expected finite numbers", p.to_array()));
         }
     }
-    let same = || format!("the start and the end of a limb are the same point, {:?}", start.to_array());
-    let along = || (end - start).unit().ok_or_else(|| GeomError::new("bad-shape", same()));
+    let message = || format!("the start and the end of a limb are the same point, {:?}", start.to_array());
+    let along = || (end - start).unit().ok_or_else(|| GeomError::new("bad-shape", message()));
     let normal = |normal: Option<Vec3>, name| normal.map_or_else(along, |normal| direction(normal, name));
     let start = Ring { center: start, normal: normal(normals.0, "start normal")?, radius: radii.0 };
     let end = Ring { center: end, normal: normal(normals.1, "end normal")?, radius: radii.1 };

@@ -12,7 +12,7 @@ pub struct Primitive(Held);
 /// Most primitives are one shape, which is shared already.
 #[derive(Clone, Debug)]
 enum Held {
-    One(Shape),
+    Single(Shape),
     Several(Arc<Several>),
 }
 
@@ -26,7 +26,7 @@ impl Primitive {
     /// A primitive of `shapes`, in order.
     pub fn new(shapes: impl AsRef<[Shape]>) -> Primitive {
         Primitive(match shapes.as_ref() {
-            [shape] => Held::One(shape.clone()),
+            [shape] => Held::Single(shape.clone()),
             shapes => {
                 let aabb = shapes.iter().fold(Aabb::EMPTY, |b, s| b.union(s.aabb()));
                 Held::Several(Arc::new(Several { aabb, shapes: shapes.into() }))
@@ -38,7 +38,7 @@ impl Primitive {
     #[inline]
     pub fn shapes(&self) -> &[Shape] {
         match &self.0 {
-            Held::One(shape) => std::slice::from_ref(shape),
+            Held::Single(shape) => std::slice::from_ref(shape),
             Held::Several(several) => &several.shapes,
         }
     }
@@ -47,7 +47,7 @@ impl Primitive {
     #[inline]
     pub fn aabb(&self) -> &Aabb {
         match &self.0 {
-            Held::One(shape) => shape.aabb(),
+            Held::Single(shape) => shape.aabb(),
             Held::Several(several) => &several.aabb,
         }
     }
@@ -63,7 +63,7 @@ impl Boxed for Primitive {
 impl PartialEq for Primitive {
     fn eq(&self, other: &Primitive) -> bool {
         match (&self.0, &other.0) {
-            (Held::One(a), Held::One(b)) => a == b,
+            (Held::Single(a), Held::Single(b)) => a == b,
             (Held::Several(a), Held::Several(b)) => Arc::ptr_eq(a, b) || a == b,
             _ => false,
         }

@@ -274,7 +274,7 @@ pub mod kinds {
     }
     kind! {
         /// The faces of a mesh, which were read with its vertices.
-        Faces "Any" [()] Never, |never| match never {}, |_given, _at| Ok(())
+        Faces "Any" [()] Never, |never| match never {}, |_arguments, _at| Ok(())
     }
     kind! {
         /// A colour.

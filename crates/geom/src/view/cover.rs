@@ -40,11 +40,11 @@ impl Cover {
     pub(crate) fn settled(mut words: Vec<(u32, u64)>) -> Cover {
         words.sort_unstable_by_key(|(word, _)| *word);
         words.dedup_by(|next, last| {
-            let same = next.0 == last.0;
-            if same {
+            let is_equal = next.0 == last.0;
+            if is_equal {
                 last.1 |= next.1;
             }
-            same
+            is_equal
         });
         Cover(words)
     }

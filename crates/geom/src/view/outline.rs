@@ -350,11 +350,11 @@ mod tests {
     #[test]
     fn a_hull_goes_around_counter_clockwise() {
         let mut points = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.5, 0.5], [0.5, 0.0]];
-        let mut found = Vec::new();
-        hull(&mut points, &mut found);
-        assert_eq!(found, [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
-        hull(&mut [[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]], &mut found);
-        assert!(found.len() < 3);
+        let mut corners = Vec::new();
+        hull(&mut points, &mut corners);
+        assert_eq!(corners, [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+        hull(&mut [[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]], &mut corners);
+        assert!(corners.len() < 3);
     }
 
     #[test]

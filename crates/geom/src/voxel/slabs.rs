@@ -76,8 +76,8 @@ pub fn rows(convex: &Convex<'_>, grid: &Grid, cells: &CellBox) -> Rows {
 /// True when the first coordinate has at most two values.
 fn has_two_heights(corners: &[Corner]) -> bool {
     let end = corners[0][0];
-    let mut others = corners.iter().map(|p| p[0]).filter(|at| *at != end);
-    others.next().is_none_or(|other| others.all(|at| at == other))
+    let mut heights = corners.iter().map(|p| p[0]).filter(|at| *at != end);
+    heights.next().is_none_or(|other| heights.all(|at| at == other))
 }
 
 /// The ends of a prism along the first coordinate; `None` for other solids.
