@@ -65,17 +65,17 @@ impl PyChains {
         threads: Option<usize>,
         checkpoint: Option<&PyCheckpoint>,
     ) -> PyResult<PyChains> {
-        let own = task.get();
-        let (method, settings, kept) = settings(py, own, method, seed, &attached)?;
+        let py_task = task.get();
+        let (method, settings, kept) = settings(py, py_task, method, seed, &attached)?;
         let settings = Settings { room, ..settings };
         let known = start.map(PyRun::by_address);
-        let checkpoint = checkpoint.map(|own| &own.checkpoint);
+        let checkpoint = checkpoint.map(|stored| &stored.checkpoint);
         let (chains, _) = detached(py, &kept, threads, None, |_| {
             let mut chains = Chains::start_from(&kept, &settings, method.chains, known.as_ref(), checkpoint)?;
             chains.aim_anew(method.steps);
             Ok(chains)
         })?;
-        let task = Py::new(py, PyTask { task: kept, model: own.model.clone_ref(py) })?;
+        let task = Py::new(py, PyTask { task: kept, model: py_task.model.clone_ref(py) })?;
         Ok(PyChains { task, chains: Shared::new(chains) })
     }
 
@@ -90,10 +90,10 @@ impl PyChains {
         watch: Option<Py<PyAny>>,
         checkpoint: Option<&PyCheckpoint>,
     ) -> PyResult<bool> {
-        let own = self.task.get();
-        let (task, classes) = (&own.task, &own.model.get().classes);
+        let py_task = self.task.get();
+        let (task, classes) = (&py_task.task, &py_task.model.get().classes);
         let caller = watch.as_ref().map(|callable| (callable, classes));
-        let checkpoint = checkpoint.map(|own| &own.checkpoint);
+        let checkpoint = checkpoint.map(|stored| &stored.checkpoint);
         let mut using = self.chains.lock(py)?;
         let chains: &mut Chains = &mut using;
         let (stopped, pressed) = detached(py, task, threads, caller, |watch| {
@@ -146,8 +146,8 @@ impl PyChains {
         let chains = self.chains.lock(py)?;
         let mut all = vec![(0, 0); chains.chains.first().map_or(0, |ladder| ladder.exchanges.len())];
         for ladder in &chains.chains {
-            for (sum, one) in all.iter_mut().zip(&ladder.exchanges) {
-                *sum = (sum.0 + one.0, sum.1 + one.1);
+            for (sum, exchange) in all.iter_mut().zip(&ladder.exchanges) {
+                *sum = (sum.0 + exchange.0, sum.1 + exchange.1);
             }
         }
         Ok(all)
@@ -265,8 +265,8 @@ fn agreement(
     every: u64,
     attached: Vec<Bound<'_, PyAny>>,
 ) -> PyResult<(Option<String>, u64, u64, u64)> {
-    let own = task.get();
-    let (_, settings, kept) = settings(py, own, method, seed, &attached)?;
+    let py_task = task.get();
+    let (_, settings, kept) = settings(py, py_task, method, seed, &attached)?;
     let settings = Settings { thin: 0, ..settings };
     let ((difference, compared), _) =
         detached(py, &kept, None, None, |_| compare(&kept, &settings, steps, every.max(1)))?;
@@ -285,9 +285,9 @@ fn explain<'py>(
     address: &str,
     tries: u64,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let own = task.get();
-    let (explained, _) = detached(py, &own.task, None, None, |_| {
-        niwaki_chain::explain::explain(&own.task, seed, tries, address)
+    let py_task = task.get();
+    let (explained, _) = detached(py, &py_task.task, None, None, |_| {
+        niwaki_chain::explain::explain(&py_task.task, seed, tries, address)
     })?;
     let number: HashMap<u128, usize> =
         explained.activations.iter().enumerate().map(|(i, a)| (a.key, i)).collect();
@@ -299,8 +299,8 @@ fn explain<'py>(
     facts.set_item("activations", rows.collect::<Vec<_>>())?;
     facts.set_item("home", explained.home)?;
     facts.set_item("path", &explained.path)?;
-    facts.set_item("old", own.model.get().classes.object(py, &explained.old)?)?;
-    facts.set_item("new", own.model.get().classes.object(py, &explained.new)?)?;
+    facts.set_item("old", py_task.model.get().classes.object(py, &explained.old)?)?;
+    facts.set_item("new", py_task.model.get().classes.object(py, &explained.new)?)?;
     let runs = PyDict::new(py);
     for run in explained.runs {
         let name = |event: Event| match event {

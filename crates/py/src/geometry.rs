@@ -44,9 +44,9 @@ pub fn mesh_from(
         );
         return Err(GeomError::new("bad-shape", message));
     }
-    for (what, columns) in [("vertices", vertices.ncols()), ("faces", faces.ncols())] {
+    for (array, columns) in [("vertices", vertices.ncols()), ("faces", faces.ncols())] {
         if columns != 3 {
-            return Err(GeomError::new("bad-shape", format!("{what} have {columns} columns, expected 3")));
+            return Err(GeomError::new("bad-shape", format!("{array} have {columns} columns, expected 3")));
         }
     }
     let points = vertices.rows().into_iter().map(|r| Vec3::from([r[0], r[1], r[2]])).collect();
@@ -84,16 +84,16 @@ fn shape(word: &str, args: &Bound<'_, PyTuple>, named: Option<&Bound<'_, PyDict>
     let py = args.py();
     let described = WORDS.iter().find(|other| other.name == word);
     let described = described.ok_or_else(|| PyTypeError::new_err(format!("there is no shape `{word}`")))?;
-    let mut given: Vec<Option<Bound<'_, PyAny>>> = args.iter().map(Some).collect();
-    given.resize(given.len().max(described.counts().1), None);
+    let mut arguments: Vec<Option<Bound<'_, PyAny>>> = args.iter().map(Some).collect();
+    arguments.resize(arguments.len().max(described.counts().1), None);
     for (name, value) in named.into_iter().flatten() {
         let unknown = || PyTypeError::new_err(format!("`{word}` has no parameter {name}"));
-        let is_it = |own: &Parameter| name.eq(own.name).unwrap_or(false);
+        let is_it = |parameter: &Parameter| name.eq(parameter.name).unwrap_or(false);
         let at = described.parameters().position(is_it).ok_or_else(unknown)?;
-        given[at] = Some(value);
+        arguments[at] = Some(value);
     }
     let mut mesh = None;
-    if let ("mesh", [vertices, faces, ..]) = (word, &mut given[..]) {
+    if let ("mesh", [vertices, faces, ..]) = (word, &mut arguments[..]) {
         let (vertices, faces) = (vertices.take(), faces.take());
         let missing = || PyTypeError::new_err("`mesh` needs vertices and faces");
         let (vertices, faces) = vertices.zip(faces).ok_or_else(missing)?;
@@ -101,9 +101,10 @@ fn shape(word: &str, args: &Bound<'_, PyTuple>, named: Option<&Bound<'_, PyDict>
         mesh = Some(Arc::new(read.map_err(|e| value_error(py, &e))?));
     }
     let classes = Classes::default();
-    let value =
-        |one: &Option<Bound<'_, PyAny>>| one.as_ref().map_or(Ok(Value::None), |one| classes.value(one));
-    let values: Vec<Value> = given.iter().map(value).collect::<PyResult<_>>()?;
+    let value = |argument: &Option<Bound<'_, PyAny>>| {
+        argument.as_ref().map_or(Ok(Value::None), |argument| classes.value(argument))
+    };
+    let values: Vec<Value> = arguments.iter().map(value).collect::<PyResult<_>>()?;
     let answer = match &mesh {
         Some(mesh) => placed_mesh(mesh, &values),
         None => builtin(builtin_id(word).expect("each word is a built-in function")).call(&values),

@@ -63,9 +63,9 @@ impl PyDensity {
 
     fn point<'a>(&self, py: Python<'_>, x: &'a PyReadonlyArray1<'_, f64>) -> PyResult<&'a [f64]> {
         let dim = self.dim(py)?;
-        let wrong = |found: &str| {
+        let wrong = |content: &str| {
             let fault =
-                Fault::new("bad-setting", format!("`x` has {found}, but there are {dim} coordinates"))
+                Fault::new("bad-setting", format!("`x` has {content}, but there are {dim} coordinates"))
                     .with_help(format!("give an array of shape ({dim},)"));
             faults::setting(py, &fault)
         };

@@ -99,8 +99,8 @@ impl PyLessons {
     fn losses(&self, py: Python<'_>, task: &PyTask, guide: &PyGuide) -> PyResult<Vec<(usize, f64)>> {
         let using = self.examples.lock(py)?;
         let examples: &[Example] = &using;
-        let (found, _) = detached(py, &task.task, None, None, |_| losses(examples, &guide.guide))?;
-        Ok(found)
+        let (drawn_losses, _) = detached(py, &task.task, None, None, |_| losses(examples, &guide.guide))?;
+        Ok(drawn_losses)
     }
 
     /// Trains a guide, or continues its training: the guide, and a dict of statistics. ``settings`` is JSON.
@@ -119,24 +119,24 @@ impl PyLessons {
         let making: Making = read(py, settings)?;
         let classes = &task.model.get().classes;
         let caller = watch.as_ref().map(|call| (call, classes));
-        let start = start.map(|own| own.guide.clone());
+        let start = start.map(|guide| guide.guide.clone());
         let using = self.examples.lock(py)?;
         let examples: &[Example] = &using;
-        let checkpoint = checkpoint.map(|own| &own.checkpoint);
+        let checkpoint = checkpoint.map(|stored| &stored.checkpoint);
         let (result, pressed) = detached(py, &task.task, threads, caller, |watch| {
             let mut seen = |now: Progress| {
                 watch.look(now.step, usize::try_from(now.steps).unwrap_or(usize::MAX), -now.held_out)
             };
             train(examples, &making, start.as_deref(), &mut seen, checkpoint)
         })?;
-        let told = PyDict::new(py);
+        let statistics = PyDict::new(py);
         let losses = result.history.iter().map(|now| (now.step, now.loss, now.held_out));
-        told.set_item("rows", result.rows)?;
-        told.set_item("bytes", result.bytes)?;
-        told.set_item("losses", losses.collect::<Vec<_>>())?;
-        told.set_item("diverged", result.diverged)?;
-        told.set_item("interrupted", pressed)?;
-        Ok((PyGuide { guide: Arc::new(result.guide) }, told))
+        statistics.set_item("rows", result.rows)?;
+        statistics.set_item("bytes", result.bytes)?;
+        statistics.set_item("losses", losses.collect::<Vec<_>>())?;
+        statistics.set_item("diverged", result.diverged)?;
+        statistics.set_item("interrupted", pressed)?;
+        Ok((PyGuide { guide: Arc::new(result.guide) }, statistics))
     }
 }
 
@@ -158,7 +158,8 @@ fn raise_bound<'py>(
     let making: Making = read(py, settings)?;
     let Some(first) = tasks.first() else { return Err(PyValueError::new_err("there are no tasks")) };
     let cases = cases(py, &tasks, &held_out)?;
-    let (start, checkpoint) = (start.map(|own| own.guide.clone()), checkpoint.map(|own| &own.checkpoint));
+    let (start, checkpoint) =
+        (start.map(|stored| stored.guide.clone()), checkpoint.map(|stored| &stored.checkpoint));
     let task = first.get();
     let classes = &task.model.get().classes;
     let caller = watch.as_ref().map(|call| (call, classes));
@@ -168,13 +169,13 @@ fn raise_bound<'py>(
         };
         climb(&cases, &making, start.as_deref(), &mut seen, checkpoint)
     })?;
-    let told = PyDict::new(py);
+    let statistics = PyDict::new(py);
     let looks = result.history.iter().zip(&result.lost);
     let bounds = looks.map(|(now, lost)| (now.step, -now.loss, -now.held_out, lost[0], lost[1]));
-    told.set_item("bounds", bounds.collect::<Vec<_>>())?;
-    told.set_item("diverged", result.diverged)?;
-    told.set_item("interrupted", pressed)?;
-    Ok((PyGuide { guide: Arc::new(result.guide) }, told))
+    statistics.set_item("bounds", bounds.collect::<Vec<_>>())?;
+    statistics.set_item("diverged", result.diverged)?;
+    statistics.set_item("interrupted", pressed)?;
+    Ok((PyGuide { guide: Arc::new(result.guide) }, statistics))
 }
 
 /// Trains the look-ahead of a guide: the guide, and a dict of statistics. Tasks of `held_out` are for tests only. ``settings`` is JSON.
@@ -195,19 +196,19 @@ fn rehearse<'py>(
     let task = first.get();
     let classes = &task.model.get().classes;
     let caller = watch.as_ref().map(|call| (call, classes));
-    let own = guide.guide.clone();
+    let bound_guide = guide.guide.clone();
     let (result, pressed) = detached(py, &task.task, threads, caller, |watch| {
-        rehearsed(&cases, &own, &plan, &mut |done, wanted| watch.look(done as u64, wanted, 0.0))
+        rehearsed(&cases, &bound_guide, &plan, &mut |done, total| watch.look(done as u64, total, 0.0))
     })?;
-    let told = PyDict::new(py);
-    told.set_item("rises", result.rises)?;
-    told.set_item("died", result.died)?;
-    told.set_item("failed", result.failed)?;
-    told.set_item("error", result.error)?;
-    told.set_item("deviation", result.deviation)?;
-    told.set_item("strength", result.strength)?;
-    told.set_item("interrupted", pressed)?;
-    Ok((PyGuide { guide: Arc::new(result.guide) }, told))
+    let statistics = PyDict::new(py);
+    statistics.set_item("rises", result.rises)?;
+    statistics.set_item("died", result.died)?;
+    statistics.set_item("failed", result.failed)?;
+    statistics.set_item("error", result.error)?;
+    statistics.set_item("deviation", result.deviation)?;
+    statistics.set_item("strength", result.strength)?;
+    statistics.set_item("interrupted", pressed)?;
+    Ok((PyGuide { guide: Arc::new(result.guide) }, statistics))
 }
 
 /// The settings of a training, from JSON.

@@ -49,11 +49,12 @@ impl PyHosts {
     /// The exception of an object, when its attribute about threads is read.
     pub fn new(constants: Vec<Option<Bound<'_, PyAny>>>, classes: Arc<Classes>) -> PyResult<PyHosts> {
         let function = |callable: Bound<'_, PyAny>| {
-            let threads =
-                callable.getattr_opt("threads")?.is_some_and(|given| given.extract().unwrap_or(false));
+            let threads = callable
+                .getattr_opt("threads")?
+                .is_some_and(|attribute| attribute.extract().unwrap_or(false));
             Ok(Function { callable: callable.unbind(), threads })
         };
-        let functions = constants.into_iter().map(|one| one.map(function).transpose());
+        let functions = constants.into_iter().map(|constant| constant.map(function).transpose());
         Ok(PyHosts { functions: functions.collect::<PyResult<_>>()?, classes, raised: Mutex::new(None) })
     }
 
@@ -79,11 +80,11 @@ impl Hosts for PyHosts {
         };
         let process = std::process::id();
         Python::attach(|py| {
-            let given = args.iter().map(|a| self.classes.object(py, a)).collect::<PyResult<Vec<_>>>();
-            let given = given.and_then(|given| PyTuple::new(py, given));
-            let result = given.and_then(|given| {
+            let arguments = args.iter().map(|a| self.classes.object(py, a)).collect::<PyResult<Vec<_>>>();
+            let arguments = arguments.and_then(|arguments| PyTuple::new(py, arguments));
+            let result = arguments.and_then(|arguments| {
                 let _turn = if function.threads { None } else { Some(Turn::take(py)) };
-                let result = function.callable.bind(py).call1(given);
+                let result = function.callable.bind(py).call1(arguments);
                 end_if_forked(process, "the host function");
                 result
             });
@@ -138,7 +139,7 @@ pub fn check(hosts: &dyn Hosts) -> PyResult<()> {
 /// Queue of a process for its turn.
 struct Queue {
     process: u32,
-    taken: Mutex<bool>,
+    busy: Mutex<bool>,
     free: Condvar,
 }
 
@@ -153,18 +154,18 @@ impl Queue {
         if self.is_foreign() {
             return;
         }
-        let taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut taken = self.free.wait_while(taken, |taken| *taken).unwrap_or_else(PoisonError::into_inner);
-        *taken = true;
+        let busy = self.busy.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut busy = self.free.wait_while(busy, |busy| *busy).unwrap_or_else(PoisonError::into_inner);
+        *busy = true;
     }
 
     fn try_take(&self) -> bool {
-        !std::mem::replace(&mut *self.taken.lock().unwrap_or_else(PoisonError::into_inner), true)
+        !std::mem::replace(&mut *self.busy.lock().unwrap_or_else(PoisonError::into_inner), true)
     }
 
     fn leave(&self) {
         if !self.is_foreign() {
-            *self.taken.lock().unwrap_or_else(PoisonError::into_inner) = false;
+            *self.busy.lock().unwrap_or_else(PoisonError::into_inner) = false;
             self.free.notify_one();
         }
     }
@@ -192,10 +193,9 @@ impl Turn {
         }
         let queue = {
             let mut queue = QUEUE.lock().unwrap_or_else(PoisonError::into_inner);
-            let own = queue.take().filter(|queue| !queue.is_foreign());
-            let new =
-                || Queue { process: std::process::id(), taken: Mutex::new(false), free: Condvar::new() };
-            queue.insert(own.unwrap_or_else(|| Arc::new(new()))).clone()
+            let current = queue.take().filter(|queue| !queue.is_foreign());
+            let new = || Queue { process: std::process::id(), busy: Mutex::new(false), free: Condvar::new() };
+            queue.insert(current.unwrap_or_else(|| Arc::new(new()))).clone()
         };
         if !queue.try_take() {
             py.detach(|| queue.take());

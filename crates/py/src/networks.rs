@@ -21,8 +21,8 @@ struct Row {
 /// Pair of lists of numbers.
 type Pair<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 
-fn refused(what: impl Display) -> PyErr {
-    PyValueError::new_err(what.to_string())
+fn refused(reason: impl Display) -> PyErr {
+    PyValueError::new_err(reason.to_string())
 }
 
 /// Makes a network before training, as bytes; `form` is JSON.
@@ -41,9 +41,9 @@ fn guide_slope<'py>(
     share: f64,
 ) -> PyResult<(f64, Bound<'py, PyArray1<f64>>)> {
     let (net, _) = read(net).map_err(refused)?;
-    let given: Vec<Row> = serde_json::from_str(rows).map_err(refused)?;
+    let examples: Vec<Row> = serde_json::from_str(rows).map_err(refused)?;
     let mut rows = Rows::new(net.form());
-    for row in given {
+    for row in examples {
         rows.push(row.site, &row.window, &row.features, &row.lesson);
     }
     let (loss, slope) = loss_and_slope(&net.convert::<f64>(), &rows, share);

@@ -40,14 +40,14 @@ impl PyNormals {
         threads: Option<usize>,
         watch: Option<Py<PyAny>>,
     ) -> PyResult<PyNormals> {
-        let own = task.get();
+        let py_task = task.get();
         let known = start.map(PyRun::by_address);
-        let method = own.read(py, method)?;
+        let method = py_task.read(py, method)?;
         let plan = (method.normals(seed, known.as_ref()))
             .ok_or_else(|| PyTypeError::new_err("this method finds no normals"))?;
-        let caller = watch.as_ref().map(|callable| (callable, &own.model.get().classes));
-        let (normals, pressed) = detached(py, &own.task, threads, caller, |watch| {
-            approximate(&own.task, &plan, &|done| watch.look(done, 0, f64::NEG_INFINITY))
+        let caller = watch.as_ref().map(|callable| (callable, &py_task.model.get().classes));
+        let (normals, pressed) = detached(py, &py_task.task, threads, caller, |watch| {
+            approximate(&py_task.task, &plan, &|done| watch.look(done, 0, f64::NEG_INFINITY))
         })?;
         let interrupted = pressed || normals.iter().any(|normal| normal.interrupted);
         Ok(PyNormals { task, normals, interrupted })
@@ -98,9 +98,9 @@ impl PyNormals {
 
     /// Log densities of each draw of a normal, by a run of the model: of choices, and of factors and observations, nats.
     fn scores<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<(Reals<'py>, Reals<'py>)> {
-        let (own, normal) = (self.task.get(), self.normal(chain)?);
-        let scores = Pool::inside(py, || normal.scores(&own.task))?;
-        let scores = scores.map_err(|failure| faults::ended(py, &failure, &own.task))?;
+        let (py_task, normal) = (self.task.get(), self.normal(chain)?);
+        let scores = Pool::inside(py, || normal.scores(&py_task.task))?;
+        let scores = scores.map_err(|failure| faults::ended(py, &failure, &py_task.task))?;
         let (prior, score): (Vec<f64>, Vec<f64>) = scores.into_iter().unzip();
         Ok((PyArray1::from_vec(py, prior), PyArray1::from_vec(py, score)))
     }
@@ -122,9 +122,9 @@ impl PyNormals {
         Ok(PyArray1::from_slice(py, &self.normal(chain)?.bounds))
     }
 
-    /// Statistics of a normal: ``impossible`` draws, whether it ``converged``, the number of ``gradients``, the step of a path that is its
-    /// ``best`` or None, the step at which an ascent ``broke`` off or None, and the ``path_bound`` of the normal from which
-    /// an ascent started, with its standard error, or None.
+    /// Statistics of a normal: ``impossible`` draws, whether it ``converged``, and the number of ``gradients``. The rest may be None: the
+    /// ``best`` step of a path, the step at which an ascent ``broke`` off, and the ``path_bound`` of the normal from which
+    /// an ascent started, with its standard error.
     fn counters<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<Bound<'py, PyDict>> {
         let (normal, facts) = (self.normal(chain)?, PyDict::new(py));
         facts.set_item("impossible", normal.impossible)?;

@@ -49,8 +49,8 @@ impl PyPlacer {
             constants: constants.into_iter().collect(),
         };
         // A host function takes the interpreter's lock.
-        let found = py.detach(|| self.placer.positions(&choices, &free, &lifted));
-        let positions = found.map_err(|failure| faults::ended(py, &failure, &self.task))?;
+        let positions = py.detach(|| self.placer.positions(&choices, &free, &lifted));
+        let positions = positions.map_err(|failure| faults::ended(py, &failure, &self.task))?;
         Ok(PyPositions { positions })
     }
 }
@@ -77,14 +77,20 @@ impl PyPositions {
     /// The movable numbers: (address, readable address, is an angle); for an argument or a constant its place, and no address.
     #[getter]
     fn movables(&self) -> Vec<(u128, String, bool)> {
-        self.positions.movables.iter().map(|one| (one.address, one.path.clone(), one.is_angle)).collect()
+        self.positions
+            .movables
+            .iter()
+            .map(|movable| (movable.address, movable.path.clone(), movable.is_angle))
+            .collect()
     }
 
     /// Value, lower and upper bound, and usual variation of each movable number; shape (n, 4).
     fn ranges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let all = &self.positions.movables;
-        let numbers: Vec<f64> =
-            all.iter().flat_map(|one| [one.value, one.low, one.high, one.spread]).collect();
+        let numbers: Vec<f64> = all
+            .iter()
+            .flat_map(|movable| [movable.value, movable.low, movable.high, movable.spread])
+            .collect();
         PyArray1::from_vec(py, numbers).reshape([all.len(), 4])
     }
 

@@ -169,16 +169,16 @@ impl PyTask {
         max_steps: u64,
         max_memory: usize,
     ) -> PyResult<PyTask> {
-        let own = program.get();
-        let values: Vec<Value> = args.iter().map(|a| own.classes.value(a)).collect::<PyResult<_>>()?;
+        let model = program.get();
+        let values: Vec<Value> = args.iter().map(|a| model.classes.value(a)).collect::<PyResult<_>>()?;
         let limits = Limits { steps: max_steps, bytes: max_memory };
         let task = Task {
-            program: own.program.clone(),
+            program: model.program.clone(),
             model: None,
             args: values,
             held: None,
             sketches: sketches.into_iter().map(|s| s.0).collect(),
-            hosts: own.hosts(limits),
+            hosts: model.hosts(limits),
             limits,
             together: None,
             invalid: Arc::default(),
@@ -215,20 +215,20 @@ impl PyTask {
     /// and line of each.
     fn mixed(&self, py: Python<'_>, seed: u64) -> PyResult<Option<[(String, u32); 2]>> {
         let task = &self.task;
-        let found = py.detach(|| mixed(task, seed));
+        let places = py.detach(|| mixed(task, seed));
         hosts::check(&*task.hosts)?;
-        let Some(found) = found else { return Ok(None) };
+        let Some(places) = places else { return Ok(None) };
         let place = |(file, span): Place| {
             (task.program.files.get(file as usize).cloned().unwrap_or_default(), span.line)
         };
-        Ok(Some([place(found.probability), place(found.density)]))
+        Ok(Some([place(places.probability), place(places.density)]))
     }
 
     /// Whether chains that grow only the activations of choices again cannot reach all runs, as a few from the prior show.
     fn is_apart(&self, py: Python<'_>, seed: u64) -> PyResult<bool> {
-        let found = py.detach(|| is_apart(&self.task, seed));
+        let apart = py.detach(|| is_apart(&self.task, seed));
         hosts::check(&*self.task.hosts)?;
-        Ok(found)
+        Ok(apart)
     }
 
     /// Searches by a method, given as its text: the finished runs, whether the search was interrupted, and a dict of
@@ -398,12 +398,12 @@ impl PyTask {
     pub(crate) fn attach(
         &self,
         py: Python<'_>,
-        given: &[Bound<'_, PyAny>],
+        parts: &[Bound<'_, PyAny>],
     ) -> PyResult<(Task, Vec<Attached>)> {
         let (mut attached, mut proposals) = (Vec::new(), Vec::new());
         let mut task = None;
-        for one in given {
-            if let Ok(guide) = one.cast::<PyGuide>() {
+        for part in parts {
+            if let Ok(guide) = part.cast::<PyGuide>() {
                 let kept = match task.take() {
                     Some(task) => task,
                     None => self.keeping_all(py)?,
@@ -412,7 +412,7 @@ impl PyTask {
                 attached.push(Attached::Guide(Arc::new(guide.map_err(|fault| faults::setting(py, &fault))?)));
                 task = Some(kept);
             } else {
-                let proposal = &one.cast::<PyTask>()?.get().task;
+                let proposal = &part.cast::<PyTask>()?.get().task;
                 proposals.push(proposal.hosts.clone());
                 let function = User::new(proposal.clone());
                 attached.push(Attached::Function(Arc::new(
@@ -437,11 +437,11 @@ impl PyTask {
 
     /// The task, its program compiled to keep the variables of these proposals.
     fn keeping(&self, py: Python<'_>, attached: &[Attached]) -> PyResult<Task> {
-        let functions = attached.iter().filter_map(|one| match one {
-            Attached::Function(own) => Some(own),
+        let functions = attached.iter().filter_map(|part| match part {
+            Attached::Function(user) => Some(user),
             Attached::Guide(_) => None,
         });
-        let mut names: Vec<Name> = functions.flat_map(|own| own.variables().cloned()).collect();
+        let mut names: Vec<Name> = functions.flat_map(|user| user.variables().cloned()).collect();
         names.sort();
         names.dedup();
         if names.is_empty() {
@@ -489,7 +489,8 @@ impl PyTask {
                 dict.set_item("moved_ended", pair(result.moved.ended))?;
             }
             Info::Improved(result) => {
-                let attempts = result.attempts.iter().map(|one| (one.form, one.particles, one.died_at));
+                let attempts =
+                    result.attempts.iter().map(|attempt| (attempt.form, attempt.particles, attempt.died_at));
                 dict.set_item("attempts", PyTuple::new(py, attempts)?)?;
                 let rounds = result.rounds.iter();
                 let of = |round: &Round| (round.kind.name(), round.work, round.best, round.parts);

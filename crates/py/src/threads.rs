@@ -27,7 +27,7 @@ const KEPT: usize = 4;
 pub struct Pool {
     threads: ThreadPool,
     /// The requested number of threads; `None` for all threads of the machine.
-    asked: Option<usize>,
+    requested: Option<usize>,
     process: u32,
 }
 
@@ -36,10 +36,10 @@ impl Pool {
     ///
     /// # Errors
     /// The variable is no number of threads; the system has no more threads.
-    pub fn borrow(py: Python<'_>, asked: Option<usize>) -> PyResult<Pool> {
+    pub fn borrow(py: Python<'_>, requested: Option<usize>) -> PyResult<Pool> {
         let process = std::process::id();
-        let asked = match asked {
-            Some(asked) => Some(asked),
+        let requested = match requested {
+            Some(requested) => Some(requested),
             None => py.import("niwaki.errors.settings")?.call_method0("usual_threads")?.extract()?,
         };
         let mut idle = waiting(py);
@@ -47,24 +47,24 @@ impl Pool {
         for foreign in idle.extract_if(.., |pool| pool.process != process) {
             std::mem::forget(foreign);
         }
-        if let Some(at) = idle.iter().rposition(|pool| pool.asked == asked) {
+        if let Some(at) = idle.iter().rposition(|pool| pool.requested == requested) {
             return Ok(idle.remove(at));
         }
         let builder = ThreadPoolBuilder::new().thread_name(|number| format!("niwaki {number}"));
         // Rayon's word for "as many as the machine has" is 0.
-        let builder = builder.num_threads(asked.map_or(0, |n| n.max(1)));
+        let builder = builder.num_threads(requested.map_or(0, |n| n.max(1)));
         let threads = match builder.build() {
             Ok(threads) => threads,
             Err(error) => {
                 let settings = py.import("niwaki.errors.settings")?;
-                settings.call_method1("refuse_threads", (asked, error.to_string()))?;
+                settings.call_method1("refuse_threads", (requested, error.to_string()))?;
                 return Err(PyRuntimeError::new_err(error.to_string()));
             }
         };
         // Each thread has worked before the interpreter's lock is given away, and a fork is possible: what threads set up for
         // the whole process (the allocator's list of them, the collector of their queues) is then complete.
         apart(|| threads.broadcast(|_| ()));
-        Ok(Pool { threads, asked, process })
+        Ok(Pool { threads, requested, process })
     }
 
     /// The number of its threads.

@@ -39,15 +39,15 @@ impl PyTrajectories {
         threads: Option<usize>,
         watch: Option<Py<PyAny>>,
     ) -> PyResult<PyTrajectories> {
-        let own = task.get();
-        let (settings, chains, tries) = (own.read(py, method)?.trajectories())
+        let py_task = task.get();
+        let (settings, chains, tries) = (py_task.read(py, method)?.trajectories())
             .map_err(|fault| faults::setting(py, &fault))?
             .ok_or_else(|| PyTypeError::new_err("this method does not follow the gradient"))?;
         let known = start.map(PyRun::by_address);
         let plan = Plan { settings: &settings, seed, chains, tries, known: known.as_ref() };
-        let caller = watch.as_ref().map(|callable| (callable, &own.model.get().classes));
-        let (chains, pressed) = detached(py, &own.task, threads, caller, |watch| {
-            explore(&own.task, &plan, &|done| watch.look(done, 0, f64::NEG_INFINITY))
+        let caller = watch.as_ref().map(|callable| (callable, &py_task.model.get().classes));
+        let (chains, pressed) = detached(py, &py_task.task, threads, caller, |watch| {
+            explore(&py_task.task, &plan, &|done| watch.look(done, 0, f64::NEG_INFINITY))
         })?;
         let interrupted = pressed || chains.iter().any(|chain| chain.draws.interrupted);
         Ok(PyTrajectories { task, chains, interrupted })
@@ -99,9 +99,9 @@ impl PyTrajectories {
 
     /// Log densities of each draw of a chain, by a run of the model: of choices, and of factors and observations, nats.
     fn scores<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<(Reals<'py>, Reals<'py>)> {
-        let (own, chain) = (self.task.get(), self.chain(chain)?);
-        let scores = Pool::inside(py, || chain.scores(&own.task))?;
-        let scores = scores.map_err(|failure| faults::ended(py, &failure, &own.task))?;
+        let (py_task, chain) = (self.task.get(), self.chain(chain)?);
+        let scores = Pool::inside(py, || chain.scores(&py_task.task))?;
+        let scores = scores.map_err(|failure| faults::ended(py, &failure, &py_task.task))?;
         let (prior, score): (Vec<f64>, Vec<f64>) = scores.into_iter().unzip();
         Ok((PyArray1::from_vec(py, prior), PyArray1::from_vec(py, score)))
     }

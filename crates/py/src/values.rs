@@ -34,7 +34,7 @@ impl Classes {
 
     fn known(&self, kind: &Bound<'_, PyType>) -> Option<Arc<Class>> {
         let known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        known.iter().find(|(own, _)| own.is(kind)).map(|(_, class)| class.clone())
+        known.iter().find(|(python_class, _)| python_class.is(kind)).map(|(_, class)| class.clone())
     }
 
     /// The machine's class for a type of records; a type that the program does not know is added.
@@ -64,7 +64,10 @@ impl Classes {
 
     fn python<'py>(&self, py: Python<'py>, class: &Class) -> Option<Bound<'py, PyType>> {
         let known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        known.iter().find(|(_, own)| own.id == class.id).map(|(kind, _)| kind.bind(py).clone())
+        known
+            .iter()
+            .find(|(_, known_class)| known_class.id == class.id)
+            .map(|(kind, _)| kind.bind(py).clone())
     }
 
     /// Converts a Python object to a value.
