@@ -36,14 +36,14 @@ fn dump(state: &State, program: &Program) -> String {
     let trace = &state.trace;
     let mut text = format!("{:?} {:?} {:?}\n", trace.result(), trace.totals(), state.log_sketches);
     trace.visit(program, |place, item| {
-        let what = match item {
+        let content = match item {
             Item::Choice(value, log) => format!("{value:?} {log:?}"),
             Item::Held(value, log) => format!("held {value:?} {log:?}"),
             Item::Factor(log) => format!("{log:?}"),
             Item::Emit(primitive) => format!("{:?}", primitive.shapes()),
             Item::Query(key, value) => format!("{key:?} = {value:?}"),
         };
-        let _ = writeln!(text, "{} {what}", place.path());
+        let _ = writeln!(text, "{} {content}", place.path());
     });
     for choice in trace.numbers() {
         let _ = write!(text, "{:x} ", trace.address(program, choice));
@@ -87,9 +87,9 @@ pub fn compare(
                 let is_kept = rung.last().accepted && !outcome.starts_with("fault");
                 let after = dump(&rung.state, program);
                 if !is_kept && after != before {
-                    let found =
+                    let difference =
                         format!("proposal {step}, {strategy:?}, rolled back to\n{after}\nfrom\n{before}");
-                    return Ok((Some(found), compared));
+                    return Ok((Some(difference), compared));
                 }
             }
             outcome.push(format!("invalid: {:?}", task.invalid.counts()));
@@ -97,10 +97,11 @@ pub fn compare(
             ladder.exchange_if_due();
         }
         for ((strategy, ladder), outcome) in STRATEGIES.iter().zip(&ladders).zip(&outcomes) {
-            let (found, first) = ((outcome, &ladder.exchanges), (&outcomes[0], &ladders[0].exchanges));
-            if found != first {
-                let found = format!("proposal {step}, {strategy:?}: {found:?}\n  but a rerun: {first:?}");
-                return Ok((Some(found), compared));
+            let (result, first) = ((outcome, &ladder.exchanges), (&outcomes[0], &ladders[0].exchanges));
+            if result != first {
+                let difference =
+                    format!("proposal {step}, {strategy:?}: {result:?}\n  but a rerun: {first:?}");
+                return Ok((Some(difference), compared));
             }
         }
         let rungs = ladders[0].rungs.len();
@@ -112,8 +113,8 @@ pub fn compare(
         if is_close {
             for rung in 0..rungs {
                 let chains: Vec<_> = ladders.iter().map(|ladder| &ladder.rungs[rung]).collect();
-                if let Some(found) = look_closer(task, program, &chains, step) {
-                    return Ok((Some(found), compared));
+                if let Some(difference) = look_closer(task, program, &chains, step) {
+                    return Ok((Some(difference), compared));
                 }
             }
         }
