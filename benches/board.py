@@ -124,7 +124,7 @@ def main() -> int:
     started = time.monotonic()
     problems, methods = chosen(PROBLEMS, "PROBLEMS"), chosen(METHODS, "METHODS")
     if os.environ.get("QUICK") and not os.environ.get("PROBLEMS"):
-        problems = [one for one in problems if not one.is_costly]
+        problems = [entry for entry in problems if not entry.is_costly]
     count = int(os.environ.get("SEEDS") or (QUICK if os.environ.get("QUICK") else FULL))
     name = os.environ.get("SET") or "tuning"
     if name not in SETS or not 0 < count <= MOST:
@@ -144,20 +144,20 @@ def main() -> int:
         "",
         *table.methods(rows, names),
         "",
-        *table.against(rows, [one for one in names if one != "default"], rows, "default"),
+        *table.against(rows, [entry for entry in names if entry != "default"], rows, "default"),
     ]
-    if pair := [one.strip() for one in os.environ.get("PAIR", "").split(",") if one.strip()]:
+    if pair := [entry.strip() for entry in os.environ.get("PAIR", "").split(",") if entry.strip()]:
         parts += ["", *table.by_problem(rows, pair[0], rows, pair[-1])]
     if before := os.environ.get("AGAINST"):
         older = records.searches(before, times)
         parts += ["", *table.against(rows, names, older)]
-        for one in names:
-            parts += ["", *table.by_problem(rows, one, older, one)]
+        for entry in names:
+            parts += ["", *table.by_problem(rows, entry, older, entry)]
     (folder / "tables.md").write_text("\n".join(parts) + "\n")
     print("\n".join(parts))
     if os.environ.get("PICTURES") != "0":
-        for one in problems:
-            print(sheets.drawn(one, rows, folder))
+        for entry in problems:
+            print(sheets.drawn(entry, rows, folder))
     print(f"{done} searches in {time.monotonic() - started:.0f} s")
     return 0
 

@@ -112,30 +112,30 @@ def home(name: str) -> Path:
     return SHIPPED / f"{name.replace('-', '_')}.guide"
 
 
-def searched(of: Kind, one: nw.Score, method: Method, seed: int) -> tuple[float, float]:
+def searched(of: Kind, score: nw.Score, method: Method, seed: int) -> tuple[float, float]:
     """The best log score of a search, and its CPU seconds."""
     start = time.process_time()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", SearchWarning)
         try:
-            best = nw.run(of.model, score=one, method=method, seed=seed, threads=1).best.log_score
+            best = nw.run(of.model, score=score, method=method, seed=seed, threads=1).best.log_score
         except nw.InputError as error:
             if error.code != "everything-impossible":
                 raise
             best = -np.inf
-    return max(best, empty(one)) if best == -np.inf else best, time.process_time() - start
+    return max(best, empty(score)) if best == -np.inf else best, time.process_time() - start
 
 
-def cost(of: Kind, one: nw.Score, method: Method) -> float:
+def cost(of: Kind, score: nw.Score, method: Method) -> float:
     """Mean CPU seconds of the pilot runs."""
-    return float(np.mean([searched(of, one, method, seed)[1] for seed in PILOTS]))
+    return float(np.mean([searched(of, score, method, seed)[1] for seed in PILOTS]))
 
 
-def as_costly(of: Kind, one: nw.Score, budget: float) -> int:
+def as_costly(of: Kind, score: nw.Score, budget: float) -> int:
     """How many unguided particles cost so many CPU seconds."""
     particles = 60
     for _ in range(2):
-        spent = cost(of, one, smc(particles, of.name))
+        spent = cost(of, score, smc(particles, of.name))
         particles = max(2, round(particles * min(8.0, max(0.125, budget / spent))))
     return particles
 

@@ -93,8 +93,8 @@ def compare(
     assert entry is not None and entry.window is not None
     rows = []
     for collection in COLLECTIONS:
-        chosen = [drawings.drawing(one) for one in drawings.names(collection, "held-out")[:limit]]
-        cases = [(tuple(one.place(entry.window)), one.score(entry.window)) for one in chosen]
+        chosen = [drawings.drawing(drawing) for drawing in drawings.names(collection, "held-out")[:limit]]
+        cases = [(tuple(drawing.place(entry.window)), drawing.score(entry.window)) for drawing in chosen]
         for particles in SIZES:
             ends: dict[str, list[tuple[float, float, float, float]]] = {}
             for seed in range(seeds):
@@ -103,8 +103,8 @@ def compare(
                         search = nw.Search(entry.model, args, score=score, method=method, seed=seed)
                         ends.setdefault(way, []).append(searched(search))
             most = np.array(list(ends.values())[-1])
-            for way, found in ends.items():
-                row = summed(np.array(found), most)
+            for way, results in ends.items():
+                row = summed(np.array(results), most)
                 rows.append({"model": name, "drawings": collection, "particles": way, **row})
                 print(line(rows[-1]), flush=True)
     return rows
@@ -146,17 +146,17 @@ def line(row: dict[str, Any]) -> str:
 def drawn(path: Path) -> None:
     """Vines in each twentieth held-out glyph by ten particles, by ten that look ahead, and by fifteen; one seed."""
     guide = taught("vines", looks=True)
-    chosen = [drawings.drawing(one) for one in drawings.names("glyphs", "held-out")[::20]]
+    chosen = [drawings.drawing(glyph) for glyph in drawings.names("glyphs", "held-out")[::20]]
     rows = []
     for way, method in ways(10, guide, guide).items():
         if way.endswith("alone"):
             continue
         cells = []
-        for one in chosen:
-            args, score = one.place(vines.WINDOW), one.score(vines.WINDOW)
-            found = nw.run(vines.vines, *args, method=method, score=score, seed=0, threads=1)
-            best = max(found, key=lambda sample: sample.log_joint)
-            page = {"style": vines.DRAWS, "window": one.window(vines.WINDOW), "under": one.greys < 255}
+        for glyph in chosen:
+            args, score = glyph.place(vines.WINDOW), glyph.score(vines.WINDOW)
+            result = nw.run(vines.vines, *args, method=method, score=score, seed=0, threads=1)
+            best = max(result, key=lambda sample: sample.log_joint)
+            page = {"style": vines.DRAWS, "window": glyph.window(vines.WINDOW), "under": glyph.greys < 255}
             cells.append(drawing(best.scene, size=(SIDE, SIDE), **page).convert("RGB"))
         rows.append(
             (f"{way} particles" if way.isdecimal() else way.replace(",", " particles,"), beside(cells))

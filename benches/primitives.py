@@ -80,8 +80,8 @@ def main(seed: int = 1, count: int = 200) -> int:
         )
     console = Console(width=120)
     console.print(table)
-    made = {row["kind"]: row["make"] for row in rows}
-    console.print("making the shape, ns: " + ", ".join(f"{kind} {ns:,.0f}" for kind, ns in made.items()))
+    times = {row["kind"]: row["make"] for row in rows}
+    console.print("making the shape, ns: " + ", ".join(f"{kind} {ns:,.0f}" for kind, ns in times.items()))
     for triangles, seconds in voxelised().items():
         console.print(f"trimesh, voxels of a mesh of {triangles} triangles: {1e9 * seconds:,.0f} ns")
     if shutil.which("perf") is None:

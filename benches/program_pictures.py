@@ -50,7 +50,7 @@ def draw(folder: Path) -> list[Path]:
     """
     folder.mkdir(parents=True, exist_ok=True)
     room = run(furniture.coffee_shop, seed=2).scene
-    made = {
+    images = {
         "coin": axes(coin_bars, run(coin.coin, method=coin.METHOD), (4.6, 2.9)),
         "hmm": axes(state_shares, run(hmm.hmm, method=hmm.METHOD, seed=1), (9.0, 3.4)),
         "lda": axes(topic_shares, run(lda.lda, method=lda.METHOD, seed=1), (9.0, 3.4)),
@@ -61,7 +61,7 @@ def draw(folder: Path) -> list[Path]:
         "palettes": stages(),
         "harmonies": harmony_ribbons(),
     }
-    return [written(folder / f"{name}.png", image) for name, image in made.items()]
+    return [written(folder / f"{name}.png", image) for name, image in images.items()]
 
 
 def stages() -> Image.Image:

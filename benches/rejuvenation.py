@@ -143,11 +143,11 @@ def main(seeds: int = 20, first: int = 1, *names: str) -> int:
         named_target("bent_tube"), voxel=0.4, sigma=0.02
     )
     methods = names or tuple(METHODS)
-    found: dict[str, list[dict[str, Any] | None]] = {name: [] for name in methods}
+    records: dict[str, list[dict[str, Any] | None]] = {name: [] for name in methods}
     for seed in range(first, first + seeds):
         for name in methods:
-            found[name].append(searched(name, score, seed, seed < first + 3))
-    for name, every in found.items():
+            records[name].append(searched(name, score, seed, seed < first + 3))
+    for name, every in records.items():
         rows = [row for row in every if row is not None]
         record: dict[str, Any] = {
             "method": name,
@@ -161,15 +161,15 @@ def main(seeds: int = 20, first: int = 1, *names: str) -> int:
         record |= {"worst best": round(min(row["best"] for row in rows), 2)}
         moved = [row["moved"] for row in rows if row["moved"] is not None]
         for place, kind in enumerate(("running", "ended")):
-            made, kept = (sum(pairs[place][k] for pairs in moved) for k in (0, 1))
-            if made:
-                record[f"moves kept, {kind}"] = f"{kept} of {made}"
+            moves, kept = (sum(pairs[place][k] for pairs in moved) for k in (0, 1))
+            if moves:
+                record[f"moves kept, {kind}"] = f"{kept} of {moves}"
         print(json.dumps(record), flush=True)
     for name in methods:
         for other in methods:
             if other.startswith("plain") and not name.startswith("plain"):
                 print(
-                    json.dumps({"method": name, "less": other} | paired(found[name], found[other])),
+                    json.dumps({"method": name, "less": other} | paired(records[name], records[other])),
                     flush=True,
                 )
     return 0

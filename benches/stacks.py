@@ -57,8 +57,8 @@ def main() -> None:
     for chain in range(args.chains):
         for name in args.kinds or KINDS:
             measure(name, args.sampler, args.out, -(-args.draws // args.chains), range(chain, chain + 1))
-            found = summary(KINDS[name], args.sampler, args.out)
-            print(line(found) if found else f"{name}: nothing", flush=True)
+            row = summary(KINDS[name], args.sampler, args.out)
+            print(line(row) if row else f"{name}: nothing", flush=True)
 
 
 if __name__ == "__main__":

@@ -61,10 +61,10 @@ def main(blocks: int = 6, *sizes: int) -> int:
                 "threads": 1,
                 "particles": particles,
             }
-            found = niwaki.grow(spaceship, ship, runs=TEN * blocks, seed=1, **common, **settings)
-            scores = [sample.log_score for sample in found]
+            result = niwaki.grow(spaceship, ship, runs=TEN * blocks, seed=1, **common, **settings)
+            scores = [sample.log_score for sample in result]
             worst = [min(scores[at : at + TEN]) for at in range(0, len(scores) - TEN + 1, TEN)]
-            cpu = statistics.median(sample.cpu_seconds for sample in found)
+            cpu = statistics.median(sample.cpu_seconds for sample in result)
             row = {"particles": particles, "weighting": name, "runs": len(scores), "mean": spread(scores)}
             print(json.dumps(row | {"worst of ten": spread(worst), "cpu": cpu}), flush=True)
     return 0

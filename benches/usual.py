@@ -29,13 +29,13 @@ def main(*sizes: str) -> int:
         tuple(map(int, size.split(":")))
         for size in sizes or ("10:100", "30:60", "100:30", "300:12", "1000:4")
     ]
-    for whose, targets in meshes().items():
+    for owner, targets in meshes().items():
         for (model, voxel, _, _), target in zip(CASES, targets, strict=True):
             program, score = entry(model).model, score_of(target, voxel)
             # The first run compiles.
             searched(program, score, nw.smc(2), 0)
             for particles, searches in cases:
-                print_rows(f"{whose:<10}{model:<12}", program, score, particles, searches)
+                print_rows(f"{owner:<10}{model:<12}", program, score, particles, searches)
     return 0
 
 

@@ -52,30 +52,30 @@ def main() -> int:
     parser.add_argument("--quick", action="store_true", default=os.environ.get("QUICK", "0") not in ("", "0"))
     parser.add_argument("--models", default="ring,coloring,stack")
     parser.add_argument("--out", type=Path, default=CACHE / "vi")
-    given = parser.parse_args()
-    report, programs = Report(given.out, "vi"), Programs.prepared()
+    options = parser.parse_args()
+    report, programs = Report(options.out, "vi"), Programs.prepared()
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
-    found = {}
+    versions = {}
     for name in NAMES:
         try:
-            found[name] = importlib.metadata.version(name)
+            versions[name] = importlib.metadata.version(name)
         except importlib.metadata.PackageNotFoundError:
             continue
-    report.note(**machine(), load=os.getloadavg()[0], quick=given.quick, **found)
-    missing = [name for name in NAMES if name not in found]
+    report.note(**machine(), load=os.getloadavg()[0], quick=options.quick, **versions)
+    missing = [name for name in NAMES if name not in versions]
     report.console.print(
-        f"load average {os.getloadavg()[0]:.1f}; {found}; not installed: {missing or 'none'}"
+        f"load average {os.getloadavg()[0]:.1f}; {versions}; not installed: {missing or 'none'}"
     )
-    models = [model for model in given.models.split(",") if not (given.quick and model == "stack")]
-    repeats = 1 if given.quick else 3
+    models = [model for model in options.models.split(",") if not (options.quick and model == "stack")]
+    repeats = 1 if options.quick else 3
     table = report.table(
         "evidence bounds, and seconds to within 0.1 nat of ours",
         *("model", "family", "system", "bound", "steps", "seconds", "with compilation"),
     )
     for model in models:
         for family in FAMILIES:
-            measure(report, table, programs, model, family, repeats, found)
+            measure(report, table, programs, model, family, repeats, versions)
     report.show(table)
     return report.close()
 

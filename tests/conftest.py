@@ -39,10 +39,10 @@ def reviewed(golden: Callable[[Path, str], None]) -> Callable[[Path, Mapping[str
 
     def check(path: Path, failing: Mapping[str, Callable[[], Any]]) -> None:
         lines = []
-        for what, fails in failing.items():
-            with pytest.raises(NiwakiError) as found:
+        for title, fails in failing.items():
+            with pytest.raises(NiwakiError) as error:
                 fails()
-            lines.append(f"# {what}\n{found.value}")
+            lines.append(f"# {title}\n{error.value}")
         golden(path, "\n\n".join(lines) + "\n")
 
     return check

@@ -47,7 +47,7 @@ class Calls:
         A name of `KINDS`.
     at : int
         The call that fails, from 0.
-    made : list of str
+    names : list of str
         The names of the calls so far.
     is_full : bool
         Whether the disk has no room at present.
@@ -56,7 +56,7 @@ class Calls:
     folder: Path
     fault: str | None = None
     at: int = 0
-    made: list[str] = field(default_factory=list)
+    names: list[str] = field(default_factory=list)
     is_full: bool = False
     _files: set[tuple[int, int]] = field(default_factory=set)
 
@@ -67,10 +67,10 @@ class Calls:
 
     def _is_due(self, name: str) -> bool:
         """Count a call, and whether the fault is at it."""
-        self.made.append(name)
+        self.names.append(name)
         if self.is_full and name in GROWING:
             raise _error("ENOSPC")
-        if self.fault is None or len(self.made) - 1 != self.at:
+        if self.fault is None or len(self.names) - 1 != self.at:
             return False
         if self.fault not in ("short", "full"):
             raise _error(self.fault)
@@ -84,10 +84,10 @@ class Calls:
             if not self._is_inside(place):
                 return real(place, *rest, **named)
             self._is_due(name)
-            found = real(place, *rest, **named)
+            result = real(place, *rest, **named)
             if name == "open":
-                self._files.add(_identity(found))
-            return found
+                self._files.add(_identity(result))
+            return result
 
         return called
 
@@ -116,8 +116,8 @@ class Calls:
 
 
 def _identity(number: int) -> tuple[int, int]:
-    found = os.fstat(number)
-    return found.st_dev, found.st_ino
+    status = os.fstat(number)
+    return status.st_dev, status.st_ino
 
 
 def _error(name: str) -> OSError:
@@ -194,11 +194,11 @@ def trials(
     usual = _folder(place / "usual", prepare)
     with injected(usual) as counted:
         attempt(usual)
-    assert counted.made, "the attempt makes no call about a file in its folder"
+    assert counted.names, "the attempt makes no call about a file in its folder"
     every = [
         (fault, at, call)
         for fault in KINDS
-        for at, call in enumerate(counted.made)
+        for at, call in enumerate(counted.names)
         if fault != "short" or call == "write"
     ]
     for number, (fault, at, call) in enumerate(every, 1):

@@ -32,9 +32,9 @@ class Peers:
         script = HERE / "webppl" / "chains.js"
         return read("node", script, self.webppl, program, path, method, seconds, seed)
 
-    def of_limit(self, what: str, program: str, data: Path, seconds: float, seed: int) -> dict[str, Any]:
+    def of_limit(self, kind: str, program: str, data: Path, seconds: float, seed: int) -> dict[str, Any]:
         """`what` is `rate`, `globals` (global choices alone) or `check`."""
-        return read(self.limit, what, program, data, seconds, seed)
+        return read(self.limit, kind, program, data, seconds, seed)
 
 
 def read(*command: object) -> dict[str, Any]:

@@ -47,22 +47,22 @@ class Report:
     def show(self, table: Table) -> None:
         self.console.print(table)
 
-    def ask(self, what: str, found: float, least: float | None = None, most: float | None = None) -> None:
+    def ask(self, label: str, value: float, least: float | None = None, most: float | None = None) -> None:
         """Hold a figure against its target."""
-        found = float(found)
-        holds = (least is None or found >= least) and (most is None or found <= most)
+        value = float(value)
+        holds = (least is None or value >= least) and (most is None or value <= most)
         target = f"at least {short(least)}" if least is not None else f"at most {short(most or 0.0)}"
         self.missed += not holds
-        self.targets.append((what, short(found), target, "pass" if holds else "MISSED"))
-        self.note(target=what, found=found, least=least, most=most, holds=holds)
+        self.targets.append((label, short(value), target, "pass" if holds else "MISSED"))
+        self.note(target=label, found=value, least=least, most=most, holds=holds)
 
-    def answer(self, what: str, found: float, most: float) -> None:
+    def answer(self, label: str, error: float, most: float) -> None:
         """Hold an error against what is allowed: above it, what was timed computes something else."""
-        found = float(found)
-        holds = found <= most
+        error = float(error)
+        holds = error <= most
         self.wrong += not holds
-        self.targets.append((what, f"{found:.3g}", f"at most {most:.3g}", "right" if holds else "WRONG"))
-        self.note(answer=what, found=found, most=most, holds=holds)
+        self.targets.append((label, f"{error:.3g}", f"at most {most:.3g}", "right" if holds else "WRONG"))
+        self.note(answer=label, found=error, most=most, holds=holds)
 
     def close(self) -> int:
         """Print all targets and answers; 1 when an answer is wrong."""

@@ -99,20 +99,20 @@ def fitted(pairs: Sequence[tuple[Search, Sample]], training: Training, seed: int
 
 def wanted(places: Places) -> dict[str, tuple[int, Training, int]]:
     """All guides from these traces: how many of them, the training, and its seed."""
-    found = {name: (TRACES, training, 1) for name, training in ABLATIONS.items()}
-    found["averaged"] = (TRACES, Training.dissertation(reads=PLACE, averaging=0.998), 1)
+    plans = {name: (TRACES, training, 1) for name, training in ABLATIONS.items()}
+    plans["averaged"] = (TRACES, Training.dissertation(reads=PLACE, averaging=0.998), 1)
     for count in COMPONENTS[:-1]:
-        found[f"full-{count}"] = (TRACES, Training.dissertation(reads=PLACE, components=count), 1)
+        plans[f"full-{count}"] = (TRACES, Training.dissertation(reads=PLACE, components=count), 1)
     for count in SIZES:
         if SIZES[0] < count < TRACES:
-            found[f"full-of-{count}"] = (count, ABLATIONS["full"], 1)
-        found |= {f"ours-of-{count}-{seed}": (count, Training(), seed) for seed in SEEDS}
+            plans[f"full-of-{count}"] = (count, ABLATIONS["full"], 1)
+        plans |= {f"ours-of-{count}-{seed}": (count, Training(), seed) for seed in SEEDS}
     if places.quick:
-        found = {
+        plans = {
             name: (min(count, 20), replace(training, steps=50), seed)
-            for name, (count, training, seed) in found.items()
+            for name, (count, training, seed) in plans.items()
         }
-    return found
+    return plans
 
 
 def teach(places: Places) -> None:

@@ -98,11 +98,11 @@ def sets(rows: list[Row]) -> str:
 
 
 def known(
-    found: list[Row], guide: str, particles: int, resampling: str, collection: str = "glyphs"
+    rows: list[Row], guide: str, particles: int, resampling: str, collection: str = "glyphs"
 ) -> list[Row]:
     """Return the measurement of a guide of the vines, or None."""
     key = dict(zip(KEYS, ("vines", guide, particles, resampling, collection), strict=True))
-    return [row for row in found if all(row[name] == value for name, value in key.items())]
+    return [row for row in rows if all(row[name] == value for name, value in key.items())]
 
 
 def numbers(row: Row) -> tuple[object, ...]:

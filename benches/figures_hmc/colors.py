@@ -55,11 +55,12 @@ def gallery(names: tuple[str, ...]) -> Image.Image:
         drawing, _ = task(name)
         greys = np.linspace(40, 235, len(drawing.names)).astype(int)
         template = {
-            one: f"#{grey:02x}{grey:02x}{grey:02x}" for one, grey in zip(drawing.names, greys, strict=True)
+            entry: f"#{grey:02x}{grey:02x}{grey:02x}"
+            for entry, grey in zip(drawing.names, greys, strict=True)
         }
         sets = [template, as_rules(drawing, rules_of(name))]
-        found = ours(name, 1).values[:SHOWN, -1]
-        sets += [dict(zip(drawing.names, map(lab.hexed, one), strict=True)) for one in found]
+        colorings = ours(name, 1).values[:SHOWN, -1]
+        sets += [dict(zip(drawing.names, map(lab.hexed, entry), strict=True)) for entry in colorings]
         for column, colors in enumerate(sets):
             image = drawing.picture(colors, SIZE - 12)
             page.paste(image, (column * SIZE + 6, line * SIZE + 6), image)
@@ -104,12 +105,12 @@ def comparison(names: tuple[str, ...], draws: int) -> plt.Figure:
     for line, name in zip(axes, names, strict=True):
         drawing, _ = task(name)
         chains = {**originals(name, 1, draws), "explore": ours(name, 1)}
-        for one, (sampler, made) in zip(line, chains.items(), strict=False):
-            found = coverage.reached(made.all_draws)
-            one.imshow(coverage.picture(drawing, found))
-            one.set(xticks=[], yticks=[])
-            one.set_title(f"{sampler}: {found.mean():.1f} of {coverage.REACHABLE} bins", fontsize=9)
-            for side in one.spines.values():
+        for axis, (sampler, chain) in zip(line, chains.items(), strict=False):
+            bins = coverage.reached(chain.all_draws)
+            axis.imshow(coverage.picture(drawing, bins))
+            axis.set(xticks=[], yticks=[])
+            axis.set_title(f"{sampler}: {bins.mean():.1f} of {coverage.REACHABLE} bins", fontsize=9)
+            for side in axis.spines.values():
                 side.set_color("0.8")
         line[3].axhline(0.0, color="0.6", linewidth=0.8)
         for sampler, color in (("HMC", "#3274a1"), ("MH", "#3a923a")):

@@ -64,10 +64,10 @@ def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
     plt.close("all")
 
 
-def timed(tell: Callable[[dict], None], name: str, evaluations: int, made: Callable) -> np.ndarray:
+def timed(tell: Callable[[dict], None], name: str, evaluations: int, sampler: Callable) -> np.ndarray:
     """Values of a chain's draws, (draws, 2), reported."""
     start = time.process_time()
-    coordinates, accepted = made()
+    coordinates, accepted = sampler()
     spent = time.process_time() - start
     low, high = BOUNDS
     xy = low + (high - low) / (1.0 + np.exp(-coordinates))
@@ -117,11 +117,11 @@ def samples(results: dict) -> plt.Figure:
 
 def correlations(results: dict) -> plt.Figure:
     """Figure 4.3: autocorrelations for the narrow curve."""
-    figure, one = plt.subplots(figsize=(6.4, 3.4), layout="constrained")
-    one.axhline(0.0, color="0.6", linewidth=0.8)
+    figure, axes = plt.subplots(figsize=(6.4, 3.4), layout="constrained")
+    axes.axhline(0.0, color="0.6", linewidth=0.8)
     for name, color in (("MH", "#3a923a"), ("HMC", "#3274a1"), ("NUTS", "#c03d3e")):
         lags = diagnostics.autocorrelation(results[name, NARROW])[:LAGS]
-        one.plot(lags, color=color, label=name)
-    one.set(xlabel="lag, draws", ylabel="autocorrelation", ylim=(-0.4, 1.05))
-    one.legend(frameon=False)
+        axes.plot(lags, color=color, label=name)
+    axes.set(xlabel="lag, draws", ylabel="autocorrelation", ylim=(-0.4, 1.05))
+    axes.legend(frameon=False)
     return figure

@@ -149,8 +149,8 @@ def stack(xp: Any, x: Any) -> Any:
     gx, gy, gz = (0.25 * m / volume for m in moment)
     # Contacts: the ground under the first block, above it what two rectangles share.
     shared = [
-        xp.concatenate([own[:1], clip(own[1:], other[:-1])])
-        for own, other, clip in (
+        xp.concatenate([centre[:1], clip(centre[1:], other[:-1])])
+        for centre, other, clip in (
             (cx - hx, over - top_x, xp.maximum),
             (cx + hx, over + top_x, xp.minimum),
             (cy - hy, cy - top_y, xp.maximum),

@@ -39,29 +39,31 @@ class Programs:
 
     def check(self, model: str) -> list[tuple[str, dict[str, Any]]]:
         """Worst relative errors of values and gradients, ours and the limit's."""
-        found = [("niwaki", read(self.chains, "check", model))]
+        errors = [("niwaki", read(self.chains, "check", model))]
         if model != "stack":
-            found.append(("limit", read(self.limit, "gradients", model, DRAWING, REFERENCE)))
-        return found
+            errors.append(("limit", read(self.limit, "gradients", model, DRAWING, REFERENCE)))
+        return errors
 
     def chain(self, model: str, point: np.ndarray, draws: int, seed: int, lanes: bool = False) -> Run:
         """One chain with machine code, or 64 in lanes; draws are those of the first."""
         words = (densities.STEP_SIZES[model], densities.STEPS[model], draws, seed)
         out = CACHE / "hmc.draws"
-        what = "lanes" if lanes else "chain"
-        return run(read(self.chains, what, model, written(point), *words, out), out, model, draws)
+        mode = "lanes" if lanes else "chain"
+        return run(read(self.chains, mode, model, written(point), *words, out), out, model, draws)
 
     def nuts(self, model: str, point: np.ndarray, warmup: int, draws: int, seed: int) -> Run:
         """The no-U-turn sampler with its own warm-up; machine code is compiled during the run."""
         out = CACHE / "hmc.draws"
-        found = read(self.chains, "nuts", model, written(point), warmup, draws, seed, out)
-        return run(found, out, model, draws)
+        record = read(self.chains, "nuts", model, written(point), warmup, draws, seed, out)
+        return run(record, out, model, draws)
 
     def by_hand(self, model: str, point: np.ndarray, draws: int, seed: int) -> Run:
         """One chain of the limit; no draws are kept."""
         words = (densities.STEP_SIZES[model], densities.STEPS[model], draws, seed)
-        found = read(self.limit, "hmc", model, DRAWING, written(point), *words)
-        return Run(found["gradients"], found["seconds"], found["cpu_seconds"], found["accept"], np.empty(0))
+        record = read(self.limit, "hmc", model, DRAWING, written(point), *words)
+        return Run(
+            record["gradients"], record["seconds"], record["cpu_seconds"], record["accept"], np.empty(0)
+        )
 
 
 def written(point: np.ndarray) -> Path:
@@ -71,10 +73,10 @@ def written(point: np.ndarray) -> Path:
     return path
 
 
-def run(found: dict[str, Any], out: Path, model: str, draws: int) -> Run:
+def run(record: dict[str, Any], out: Path, model: str, draws: int) -> Run:
     """The output of a program, and what it wrote."""
     rows = np.fromfile(out).reshape((-1, densities.DIMS[model]))[:draws]
-    return Run(found["gradients"], found["seconds"], found["cpu_seconds"], found["accept"], rows)
+    return Run(record["gradients"], record["seconds"], record["cpu_seconds"], record["accept"], rows)
 
 
 def read(*command: object) -> dict[str, Any]:

@@ -54,8 +54,8 @@ def timed(f: Callable[[], Any]) -> tuple[Any, float, float]:
     import jax
 
     wall, cpu = time.perf_counter(), time.process_time()
-    made = jax.block_until_ready(f())
-    return made, time.perf_counter() - wall, time.process_time() - cpu
+    value = jax.block_until_ready(f())
+    return value, time.perf_counter() - wall, time.process_time() - cpu
 
 
 class Chains:

@@ -38,13 +38,13 @@ def case_of(name: str, seed: int) -> Case:
     return problem(name).case(seed)
 
 
-def grown(one: Problem, case: Case, how: Method, size: int, seed: int) -> nw.Result | None:
+def grown(task: Problem, case: Case, how: Method, size: int, seed: int) -> nw.Result | None:
     """The result of a search, None where no run was possible."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", SearchWarning)
         try:
             return nw.grow(
-                one.model, case.target, score=case.score, seed=seed, threads=1, **how.settings(size)
+                task.model, case.target, score=case.score, seed=seed, threads=1, **how.settings(size)
             )
         except nw.InputError as error:
             if error.code not in DEAD:
@@ -63,9 +63,9 @@ def searched(job: Job) -> dict[str, Any]:
     """The record of a search: a job is the names of a problem and a method, the method's size, and a seed."""
     name, how, size, seed = job
     compiled(name)
-    one, case = problem(name), case_of(name, seed)
+    task, case = problem(name), case_of(name, seed)
     start = time.process_time()
-    result = grown(one, case, method(how), size, seed)
+    result = grown(task, case, method(how), size, seed)
     record: dict[str, Any] = {"problem": name, "method": how, "seed": seed, "size": size}
     record["settings"] = method(how).text(size)
     record["cpu"] = time.process_time() - start

@@ -71,37 +71,39 @@ class Kind:
     @property
     def model(self) -> nw.Model[..., Any]:
         """The model."""
-        found = entry(self.name)
-        assert found is not None
-        return found.model
+        model_entry = entry(self.name)
+        assert model_entry is not None
+        return model_entry.model
 
     def learned(self) -> list[nw.Target]:
         """What a guide learns from, well mixed."""
-        found = [
-            one
+        solids = [
+            scene
             for k, own in enumerate(self.own)
-            for one in self.scenes(own, LEARNED + 100_000 * k, own.count)
+            for scene in self.scenes(own, LEARNED + 100_000 * k, own.count)
         ]
-        found += [
+        solids += [
             lofted(make, k, LEARNED + i) for i in range(self.count) for k, make in enumerate(self.solids)
         ]
-        order = np.random.default_rng(1).permutation(len(found))
-        return [found[i] for i in order]
+        order = np.random.default_rng(1).permutation(len(solids))
+        return [solids[i] for i in order]
 
     def tried_on(self) -> list[nw.Target]:
         """Six targets that are not learned from."""
-        found = [named_target(name) for name in self.given]
+        solids = [named_target(name) for name in self.given]
         for k, (make, count) in enumerate(zip(self.solids, self.tried, strict=True)):
-            found += [lofted(make, k, TRIED + i) for i in range(count)]
-        left = 6 - len(found)
-        return found + [
-            one for k, own in enumerate(self.own[:left]) for one in self.scenes(own, TRIED + 10_000 * k, 1)
+            solids += [lofted(make, k, TRIED + i) for i in range(count)]
+        left = 6 - len(solids)
+        return solids + [
+            scene
+            for k, own in enumerate(self.own[:left])
+            for scene in self.scenes(own, TRIED + 10_000 * k, 1)
         ]
 
     def scenes(self, own: Own, seed: int, count: int) -> list[nw.Target]:
         """Scenes of the model from `seed` on."""
-        found: list[nw.Target] = []
-        while len(found) < count:
+        solids: list[nw.Target] = []
+        while len(solids) < count:
             seed += 1
             free = nw.no_self_intersection()
             scene = nw.run(
@@ -111,8 +113,8 @@ class Kind:
                 continue
             target = nw.Target(*scene.merged(fine=False), f"own {seed}")
             if empty(score(target)) < own.empty:
-                found.append(target)
-        return found
+                solids.append(target)
+        return solids
 
 
 def lofted(make: Solid, number: int, seed: int) -> nw.Target:
@@ -155,4 +157,4 @@ KINDS: Sequence[Kind] = (
 
 def kind(name: str) -> Kind:
     """The kind of that name."""
-    return next(one for one in KINDS if one.name == name)
+    return next(candidate for candidate in KINDS if candidate.name == name)

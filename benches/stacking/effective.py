@@ -26,10 +26,10 @@ def autocorrelation(corners: Reals) -> Reals:
 
 def effective(corners: Reals) -> float:
     """Effective draws of (chains, draws, n)."""
-    found = autocorrelation(corners)
+    correlations = autocorrelation(corners)
     total = 0.0
-    for lag in range(0, len(found) - 1, 2):
-        pair = found[lag] + found[lag + 1]
+    for lag in range(0, len(correlations) - 1, 2):
+        pair = correlations[lag] + correlations[lag + 1]
         if pair <= 0.0:
             break
         total += 2.0 * pair

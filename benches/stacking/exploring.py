@@ -13,12 +13,12 @@ from stacking.kinds import Kind
 
 def draw(kind: Kind, chain: int, draws: int) -> Drawn:
     """The last draws of so many chains; `chain` decides their seed."""
-    begun = time.process_time()
-    found = nw.run(
+    start = time.process_time()
+    result = nw.run(
         kind.model, method=nw.explore(chains=draws), seed=100 * chain + 1, width=kind.width, threads=1
     )
-    spent = time.process_time() - begun
-    values = np.array([numbers[:, -1] for numbers in found.draws.values()]).T
-    accepted = float(found.stats["acceptance_rate"].mean())
-    made = (0.0, 0.0, spent, found.gradients, accepted, found.divergences.total)
-    return Drawn(list(found.draws), values, *made, "explore, the last of each chain")
+    spent = time.process_time() - start
+    values = np.array([numbers[:, -1] for numbers in result.draws.values()]).T
+    accepted = float(result.stats["acceptance_rate"].mean())
+    figures = (0.0, 0.0, spent, result.gradients, accepted, result.divergences.total)
+    return Drawn(list(result.draws), values, *figures, "explore, the last of each chain")

@@ -47,9 +47,9 @@ class Drawn:
 
     @classmethod
     def load(cls, path: Path) -> Drawn:
-        found = json.loads(path.read_text())
-        found["values"] = np.array(found["values"])
-        return cls(**found)
+        fields = json.loads(path.read_text())
+        fields["values"] = np.array(fields["values"])
+        return cls(**fields)
 
 
 def chain_file(folder: Path, kind: str, sampler: str, chain: int) -> Path:
@@ -58,10 +58,10 @@ def chain_file(folder: Path, kind: str, sampler: str, chain: int) -> Path:
 
 def chains(folder: Path, kind: str, sampler: str) -> list[Drawn]:
     """The chains that there are."""
-    found = []
-    while (path := chain_file(folder, kind, sampler, len(found))).exists():
-        found.append(Drawn.load(path))
-    return found
+    records = []
+    while (path := chain_file(folder, kind, sampler, len(records))).exists():
+        records.append(Drawn.load(path))
+    return records
 
 
 class Verdicts(Lines):

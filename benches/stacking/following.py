@@ -22,27 +22,27 @@ THIN = 5
 
 def draw(kind: Kind, chain: int, draws: int, warmup: int = WARMUP, thin: int = THIN) -> Drawn:
     """Draws of one chain."""
-    begun = time.process_time()
+    start = time.process_time()
     density, x = stacks.start(kind.model, 100 * chain + 1, kind.width)
     started = time.process_time()
     method = nw.nuts(draws=draws, warmup=warmup, thin=thin, chains=1, metric="low-rank")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        found = nw.run(kind.model, method, seed=100 * chain + 1, width=kind.width, choices=density.values(x))
+        result = nw.run(kind.model, method, seed=100 * chain + 1, width=kind.width, choices=density.values(x))
     spent = time.process_time() - started
-    addresses = list(found.draws)
-    values = np.array([found.draws[name][0] for name in addresses]).T
+    addresses = list(result.draws)
+    values = np.array([result.draws[name][0] for name in addresses]).T
     # Seconds of warm-up and draws by their gradients, which all cost the same.
-    after = int(found.stats["n_steps"].sum()) * thin
-    share = min(1.0, after / found.gradients)
+    after = int(result.stats["n_steps"].sum()) * thin
+    share = min(1.0, after / result.gradients)
     return Drawn(
         addresses,
         values,
-        started - begun,
+        started - start,
         (1.0 - share) * spent,
         share * spent,
         after,
-        float(found.stats["acceptance_rate"].mean()),
-        found.divergences.total,
+        float(result.stats["acceptance_rate"].mean()),
+        result.divergences.total,
         f"nuts, low-rank metric, warm-up {warmup}, every {thin}th",
     )

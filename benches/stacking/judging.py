@@ -30,11 +30,11 @@ def judge(kind: Kind, sampler: str, folder: Path, polish: bool = True) -> None:
 def row(kind: Kind, drawn: Drawn, chain: int, draw: int, polish: bool) -> dict[str, Any]:
     """What the judges say of a draw, and of its polish where it fails."""
     choices = drawn.choices(draw)
-    found = {"chain": chain, "draw": draw} | verdict(kind, choices, draw % MARGINS == 0)
-    if polish and not passes(found):
+    record = {"chain": chain, "draw": draw} | verdict(kind, choices, draw % MARGINS == 0)
+    if polish and not passes(record):
         better = stacks.polished(kind.model, choices, kind.width)
-        found["polished"] = verdict(kind, better, False)
-    return found
+        record["polished"] = verdict(kind, better, False)
+    return record
 
 
 def verdict(kind: Kind, choices: dict[str, Any], margin: bool) -> dict[str, Any]:
@@ -46,7 +46,7 @@ def verdict(kind: Kind, choices: dict[str, Any], margin: bool) -> dict[str, Any]
         return {"refused": getattr(fault, "code", type(fault).__name__)}
     balance = stacks.balanced(structure, margin=margin)
     drop = stacks.simulated(structure)
-    found = {
+    record = {
         "residual": balance.residual,
         "holds": balance.holds,
         # A structure that flies apart has no number for it.
@@ -55,8 +55,8 @@ def verdict(kind: Kind, choices: dict[str, Any], margin: bool) -> dict[str, Any]
         "stands": drop.stands,
         "litres": round(1e3 * float(structure.solids()[0].sum()), 6),
     }
-    return found | ({"margin": balance.margin} if margin and np.isfinite(balance.margin) else {})
+    return record | ({"margin": balance.margin} if margin and np.isfinite(balance.margin) else {})
 
 
-def passes(found: dict[str, Any]) -> bool:
-    return bool(found.get("holds") and found.get("stands"))
+def passes(record: dict[str, Any]) -> bool:
+    return bool(record.get("holds") and record.get("stands"))

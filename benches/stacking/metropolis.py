@@ -26,18 +26,18 @@ from stacking.kinds import Kind
 BURN_IN, THIN = 200_000, 2000
 TARGET, BEST = 0.234, 0.44
 #: The logarithm of 1e-15, where the original's pushes start.
-NOTHING = np.log(1e-15)
+NEARLY_ZERO = np.log(1e-15)
 
 
 def original(kind: Kind, chain: int, draws: int, warmup: int = BURN_IN, thin: int = THIN) -> Drawn:
     """The dissertation's chain."""
-    begun = time.process_time()
+    start = time.process_time()
     density = density_of(kind.model, 100 * chain + 1, width=kind.width)
     density.compile()
     x = density.start.copy()
     for choice in density.choices:
         if choice.family == "exponential":
-            x[choice.first] = NOTHING
+            x[choice.first] = NEARLY_ZERO
         elif choice.family == "student_t":
             x[choice.first] = 0.0
     units = Units(density, x)
@@ -47,19 +47,19 @@ def original(kind: Kind, chain: int, draws: int, warmup: int = BURN_IN, thin: in
     burnt = time.process_time()
     kept: list[Any] = []
     x, _, accepted = walk(density, x, units, draws * thin, chain + 1000, keeper(kept, thin))
-    return made(density, kept, started - begun, burnt - started, burnt, draws * thin, accepted, "original")
+    return made(density, kept, started - start, burnt - started, burnt, draws * thin, accepted, "original")
 
 
 def adaptive(kind: Kind, chain: int, draws: int, warmup: int = BURN_IN, thin: int = THIN) -> Drawn:
     """The chain that is put right."""
-    begun = time.process_time()
+    start = time.process_time()
     density, x = stacks.start(kind.model, 100 * chain + 1, kind.width)
     started = time.process_time()
     x, steps, _ = walk(density, x, None, warmup, chain, lambda *_: None)
     burnt = time.process_time()
     kept: list[Any] = []
     x, _, accepted = walk(density, x, None, draws * thin, chain + 1000, keeper(kept, thin), steps)
-    return made(density, kept, started - begun, burnt - started, burnt, draws * thin, accepted, "adaptive")
+    return made(density, kept, started - start, burnt - started, burnt, draws * thin, accepted, "adaptive")
 
 
 SAMPLERS = {"mh-original": original, "mh-adaptive": adaptive}
@@ -102,26 +102,26 @@ def walk(
     random = np.random.default_rng(seed)
     x = x.copy()
     steps = np.full(density.dim, 0.002 if units else 0.1) if frozen is None else frozen
-    tried, taken = np.zeros(density.dim), np.zeros(density.dim)
+    tried, accepts = np.zeros(density.dim), np.zeros(density.dim)
     score = height(density, x)[0]
     for number in range(count):
         i = int(random.integers(density.dim))
         before, by = x[i], steps[i] * random.normal()
         x[i] = units.coordinate(i, units.value(i, before) + by) if units else before + by
-        found = height(density, x)[0]
+        height_now = height(density, x)[0]
         tried[i] += 1
-        accepted = np.log(random.uniform()) < found - score
+        accepted = np.log(random.uniform()) < height_now - score
         if accepted:
-            score = found
-            taken[i] += 1
+            score = height_now
+            accepts[i] += 1
         else:
             x[i] = before
         if frozen is None and units:
-            steps[i] *= 1.01 if taken[i] / tried[i] > TARGET else 1.0 / 1.01
+            steps[i] *= 1.01 if accepts[i] / tried[i] > TARGET else 1.0 / 1.01
         elif frozen is None:
             steps[i] *= np.exp((accepted - BEST) * tried[i] ** -0.6)
         see(number, x)
-    return x, steps, float(taken.sum() / max(tried.sum(), 1))
+    return x, steps, float(accepts.sum() / max(tried.sum(), 1))
 
 
 def keeper(kept: list[Any], thin: int) -> Callable[[int, Any], None]:
@@ -146,7 +146,7 @@ def made(
     addresses = list(values[0])
     return Drawn(
         addresses,
-        [[found[name] for name in addresses] for found in values],
+        [[choices[name] for name in addresses] for choices in values],
         start,
         burn_in,
         time.process_time() - since,

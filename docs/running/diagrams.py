@@ -48,8 +48,8 @@ class Drawing:
     def cells(self, x: float, y: float, side: float, rows: list[str]) -> None:
         """A grid: a letter for each cell, `#` on, `x` marked, anything else off."""
         for j, row in enumerate(rows):
-            for k, one in enumerate(row):
-                fill = {"#": SOFT, "x": MARK}.get(one, "white")
+            for k, letter in enumerate(row):
+                fill = {"#": SOFT, "x": MARK}.get(letter, "white")
                 place = f'x="{x + k * side}" y="{y + j * side}" width="{side}" height="{side}"'
                 self.parts.append(f'<rect {place} fill="{fill}" stroke="{SOFT}" stroke-width="0.5"/>')
 

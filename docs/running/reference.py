@@ -69,7 +69,7 @@ def reference(folder: Path) -> None:
         module = nw.kernels if package == "niwaki.kernels" else importlib.import_module(package)
         lines.append(f"## {title}: `{module.__name__}`\n")
         for name in sorted(
-            getattr(module, "__all__", None) or [one for one in vars(module) if one[0] != "_"]
+            getattr(module, "__all__", None) or [key for key in vars(module) if key[0] != "_"]
         ):
             value = getattr(module, name)
             ours = getattr(value, "__module__", None) or ""
@@ -91,7 +91,7 @@ def gallery(folder: Path) -> None:
     """Write a page and a picture for each model of the gallery."""
     place = folder / "gallery"
     place.mkdir(exist_ok=True)
-    texts = {one.name: page(one, place) for one in entries()}
+    texts = {entry.name: page(entry, place) for entry in entries()}
     for name, text in texts.items():
         (place / f"{name}.md").write_text(text, encoding="utf-8")
     toc = "\n".join(sorted(texts))
@@ -130,7 +130,7 @@ def entry_module(entry: Entry) -> str:
 
 
 def grown(entry: Entry) -> nw.Result | None:
-    """What a short search finds, or a few runs of the prior where there is nothing to find."""
+    """Return the result of a short search, or a few runs of the prior without a drawing, target or score."""
     if entry.drawing_name is not None and entry.window is not None:
         drawing = nw.targets.drawings.drawing(entry.drawing_name)
         start, score = drawing.place(entry.window), drawing.score(entry.window)

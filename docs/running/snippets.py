@@ -55,7 +55,7 @@ RUN = ("niwaki", "python", "timeout")
 
 @dataclass
 class Report:
-    """What became of the blocks of a page."""
+    """Counts, times and failures of the blocks of a page."""
 
     page: str
     ran: int = 0
@@ -92,8 +92,10 @@ def blocks(text: Document) -> Iterable[Region]:
         language = region.lexemes["arguments"]
         before = MARKS.search(text.text[: region.start])
         marks = MARK.findall(before[0]) if before else []
-        region.parsed = shortened(region.lexemes["source"], [what for kind, what in marks if kind == "less"])
-        named = [what for kind, what in marks if kind == "file"]
+        region.parsed = shortened(
+            region.lexemes["source"], [words for kind, words in marks if kind == "less"]
+        )
+        named = [words for kind, words in marks if kind == "file"]
         if named:
             region.evaluator = writer(named[0])
         elif language == "python":
@@ -116,7 +118,7 @@ def shortened(source: Lexeme, marks: list[str]) -> Lexeme:
 
 
 def writer(file: str) -> Evaluator:
-    """What writes a block that is a file."""
+    """Return the evaluator of a block that is a file."""
 
     def write(example: Example) -> None:
         Path(file).parent.mkdir(parents=True, exist_ok=True)
@@ -163,7 +165,7 @@ def commands(text: str) -> Iterator[str]:
 
 def known(line: str, words: list[str], all_of_them: set[str]) -> None:
     """Refuse a word that does not exist."""
-    missing = [one for word in words for one in word.split(",") if one not in all_of_them]
+    missing = [part for word in words for part in word.split(",") if part not in all_of_them]
     assert not missing, f"{line}\nnames {', '.join(missing)}, which is not there"
 
 
@@ -199,8 +201,8 @@ def run(page: Path, folder: Path) -> Report:
         except SkipTest as reason:
             report.skipped.append(f"{page.relative_to(ROOT)}:{example.line}: {reason}")
         except BaseException:
-            told = traceback.format_exc(limit=-3)
-            report.failed.append(f"{page.relative_to(ROOT)}:{example.line}\n{told}")
+            trace = traceback.format_exc(limit=-3)
+            report.failed.append(f"{page.relative_to(ROOT)}:{example.line}\n{trace}")
         else:
             report.ran += not isinstance(example.region.evaluator, type(SkipParser().skipper))
         report.slowest = max(report.slowest, (time.perf_counter() - began, example.line))
@@ -248,7 +250,7 @@ def main(out: Path, words: list[str]) -> int:
 
 if __name__ == "__main__":
     if sys.argv[1] == "--one":
-        one = run(Path(sys.argv[2]), Path(sys.argv[3]))
-        print("\x1e" + json.dumps(one.__dict__))
+        report = run(Path(sys.argv[2]), Path(sys.argv[3]))
+        print("\x1e" + json.dumps(report.__dict__))
     else:
         sys.exit(main(Path(sys.argv[1]).resolve(), sys.argv[2:]) > 0)

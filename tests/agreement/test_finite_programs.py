@@ -15,7 +15,7 @@ The same of programs with memoised functions, without kernels that grow a part a
 Programs whose every run looks at a future that is not forced are refused by each of them.
 
 A quantity is wrong only if it is wrong twice: by 5 standard errors, and then with fresh seeds and sixteen times the
-runs by 7. Only values with a share of at least a twentieth are counted, and the least standard error is the one of
+runs by 7. Only values with a share of at least a twentieth are counted. The least standard error is the one of
 three runs, so that rare runs that never occurred do not count against a method. For a share of a twentieth, chance
 passes both bounds on its binomial count once in 1e13. A soak of an hour checks less than 1e7 quantities, so it fails
 once in a million.

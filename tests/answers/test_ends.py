@@ -212,8 +212,8 @@ def test_vi(case):
 def test_ten_heads(method):
     case = beta(10.1, 0.1)
     if method == "drift":
-        found = nw.mh(kernel=kernels.drift(5.0), steps=100_000, warmup=2_000, chains=4, thin=4)
-        x = chains_of(nw.run(ten_heads, 0.1, 0.1, method=found, seed=6), 4)
+        settings = nw.mh(kernel=kernels.drift(5.0), steps=100_000, warmup=2_000, chains=4, thin=4)
+        x = chains_of(nw.run(ten_heads, 0.1, 0.1, method=settings, seed=6), 4)
     else:
         x = quiet(ten_heads, 0.1, 0.1, method=nw.nuts(draws=8_000, chains=4), seed=6).draws["share"]
     judged(case, x)

@@ -115,8 +115,8 @@ def coin_answers() -> dict[str, float]:
 
 def tilted_answers() -> dict[str, float]:
     grid = np.linspace(-1, 2, 300_001)[:-1] + 0.5e-5
-    one, two = over(grid, -3 * grid, grid, grid**2)
-    return {"x": one, "x^2": two}
+    mean, square = over(grid, -3 * grid, grid, grid**2)
+    return {"x": mean, "x^2": square}
 
 
 def share_answers() -> dict[str, float]:
@@ -135,8 +135,8 @@ def group_answers() -> dict[str, float]:
         solved = np.linalg.solve(cover, y)
         log[k] = 2 * math.log(s) - 2 * s - 0.5 * np.linalg.slogdet(cover)[1] - 0.5 * y @ solved
         means[k] = 4.0 * solved.sum()
-    mean, one = over(spread, log, means, spread)
-    return {"mean": mean, "spread": one}
+    mean, scale = over(spread, log, means, spread)
+    return {"mean": mean, "spread": scale}
 
 
 def branch_answers() -> dict[str, float]:
@@ -151,8 +151,8 @@ def point_answers() -> dict[str, float]:
     side = np.linspace(-1.5, 1.5, 3001)
     x, y = np.meshgrid(side, side)
     log = -0.5 * ((y**4 - y**2 + x**2 - 0.25) / 0.1) ** 2
-    one, two, three = over(x, log, x, x * x, y * y)
-    return {"x": one, "x^2": two, "y^2": three}
+    x_mean, x_square, y_square = over(x, log, x, x * x, y * y)
+    return {"x": x_mean, "x^2": x_square, "y^2": y_square}
 
 
 CASES: dict[str, tuple[Any, tuple[Any, ...], Callable[[], dict[str, float]]]] = {

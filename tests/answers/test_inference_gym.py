@@ -120,10 +120,10 @@ def volatility(returns):
 def volatilities(draws: np.ndarray) -> np.ndarray:
     """Return the Gym's parameters from our choices, both of shape (numbers, chains, draws)."""
     persistence, mean, shock = 2 * draws[0] - 1, draws[1], 2 * np.tan(0.5 * np.pi * draws[2])
-    found = [mean + draws[3] * shock / np.sqrt(1 - persistence**2)]
+    logs = [mean + draws[3] * shock / np.sqrt(1 - persistence**2)]
     for deviation in draws[4:]:
-        found.append(mean + persistence * (found[-1] - mean) + shock * deviation)
-    return np.array([persistence, mean, shock, *found])
+        logs.append(mean + persistence * (logs[-1] - mean) + shock * deviation)
+    return np.array([persistence, mean, shock, *logs])
 
 
 def with_gaps(values: Any, seen: Any) -> list[float | None]:

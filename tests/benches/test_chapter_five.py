@@ -70,8 +70,8 @@ def test_models_run_through_themselves_as_often_as_published(
     model: AnyModel, share: float, published: int
 ) -> None:
     runs = 600
-    found = nw.run(model, method=nw.importance(runs), score=nw.no_self_intersection("surface"), seed=1)
-    here = sum(sample.log_score == -math.inf for sample in found) / runs
+    result = nw.run(model, method=nw.importance(runs), score=nw.no_self_intersection("surface"), seed=1)
+    here = sum(sample.log_score == -math.inf for sample in result) / runs
     assert abs(here - share) < 4.0 * math.sqrt(share * (1.0 - share) * (1.0 / runs + 1.0 / published))
 
 
@@ -114,13 +114,13 @@ def test_the_tree_is_one_program_for_particles_and_chains() -> None:
     assert [part.address for part in Scene(again.scene)] == [part.address for part in tree.scene]
 
 
-@pytest.mark.parametrize("one", EXPERIMENTS, ids=lambda one: one.name)
-def test_experiments_name_what_there_is(one: Experiment) -> None:
-    assert entry(one.model) is not None
-    for solid in (one.fill, one.avoid):
+@pytest.mark.parametrize("experiment", EXPERIMENTS, ids=lambda experiment: experiment.name)
+def test_experiments_name_what_there_is(experiment: Experiment) -> None:
+    assert entry(experiment.model) is not None
+    for solid in (experiment.fill, experiment.avoid):
         assert solid is None or solid in targets.TARGETS
-    for image in (one.image, one.weights):
+    for image in (experiment.image, experiment.weights):
         assert image is None or image in targets.IMAGES
     # A solid to fill or an image to match; an image has a camera, a shadow a light.
-    assert (one.fill is None) != (one.image is None)
-    assert bool(one.camera) == (one.image is not None)
+    assert (experiment.fill is None) != (experiment.image is None)
+    assert bool(experiment.camera) == (experiment.image is not None)

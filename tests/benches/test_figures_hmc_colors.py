@@ -64,14 +64,14 @@ def logistic(x: np.ndarray) -> tuple[float, np.ndarray]:
 
 @pytest.mark.usefixtures("room")
 def test_the_originals_mh_draws_from_another_density_and_corrected_from_the_right_one() -> None:
-    """Of a uniform choice: Beta(2, 2) as it was, variance 1/20; uniform when corrected, variance 1/12."""
+    """Draws of a uniform choice: Beta(2, 2) as published, variance 1/20; uniform when corrected, variance 1/12."""
     import original
 
     for corrected, variance in ((False, 1 / 20), (True, 1 / 12)):
-        found, accepted = original.mh(
+        draws, accepted = original.mh(
             logistic, np.zeros(1), 30_000, 5, (0.0, 1.0), width=0.6, adapts=False, corrected=corrected
         )
-        values = 1.0 / (1.0 + np.exp(-found[:, 0]))
+        values = 1.0 / (1.0 + np.exp(-draws[:, 0]))
         # Some 10 000 effective draws: the standard error of a variance is below 0.0007, and this is six of those.
         assert values.var() == pytest.approx(variance, abs=0.0042)
         assert 0.3 < accepted < 0.9
@@ -81,7 +81,7 @@ def test_the_originals_mh_draws_from_another_density_and_corrected_from_the_righ
 def test_the_originals_hmc_draws_from_its_density_at_the_acceptance_it_seeks() -> None:
     import original
 
-    found, accepted = original.hmc(logistic, np.zeros(2), 4000, 5, 3)
+    draws, accepted = original.hmc(logistic, np.zeros(2), 4000, 5, 3)
     # The logistic density has variance pi^2 / 3; at 65 % the effective size is some 2000 of 8000.
-    assert found.var() == pytest.approx(np.pi**2 / 3, rel=0.2)
+    assert draws.var() == pytest.approx(np.pi**2 / 3, rel=0.2)
     assert accepted == pytest.approx(0.65, abs=0.05)

@@ -30,16 +30,16 @@ def test_every_figure_is_drawn(drawn: Path) -> None:
     from experiments import EXPERIMENTS
     from PIL import Image
 
-    wanted = {
-        f"figure-{one.figure.replace('.', '-')}-{one.name}.png"
-        for one in EXPERIMENTS
-        if one.name != "tall-tree"
+    expected = {
+        f"figure-{experiment.figure.replace('.', '-')}-{experiment.name}.png"
+        for experiment in EXPERIMENTS
+        if experiment.name != "tall-tree"
     }
-    made = {path.name for path in drawn.glob("*.png")}
+    files = {path.name for path in drawn.glob("*.png")}
     # Small populations may die among obstacles; those rows say so.
     dead = [row for row in rows(drawn / "examples.jsonl") if "scores" not in row]
-    assert wanted | {"figure-5-2.png", "figure-5-9-ours.png"} <= made | {
-        name for name in wanted if any(row["experiment"] in name for row in dead)
+    assert expected | {"figure-5-2.png", "figure-5-9-ours.png"} <= files | {
+        name for name in expected if any(row["experiment"] in name for row in dead)
     }
     for path in drawn.glob("*.png"):
         with Image.open(path) as image:

@@ -7,9 +7,9 @@ from models import gmm_forms, hmm_forms
 SIZE = 12
 
 
-def values(found):
+def values(run):
     """The values of a run's choices, in the order in which they were made."""
-    return list(found.choices.values())
+    return list(run.choices.values())
 
 
 @pytest.mark.parametrize("forms", [hmm_forms.FORMS, gmm_forms.FORMS], ids=["hmm", "gmm"])

@@ -34,9 +34,9 @@ def measured(records: Records, methods: list[Method] = TWO, seeds: tuple[int, ..
 
 @pytest.fixture(scope="module")
 def records(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Records]:
-    found = Records(tmp_path_factory.mktemp("board") / "records.jsonl")
-    assert measured(found) == 8
-    yield found
+    board = Records(tmp_path_factory.mktemp("board") / "records.jsonl")
+    assert measured(board) == 8
+    yield board
 
 
 def test_each_search_is_a_line_with_what_ran(records: Records) -> None:
@@ -44,7 +44,7 @@ def test_each_search_is_a_line_with_what_ran(records: Records) -> None:
     assert lines == records.rows
     searches = [row for row in lines if "seed" in row]
     assert {(row["problem"], row["method"], row["seed"]) for row in searches} == {
-        (one.name, how.name, seed) for one in SMALL for how in TWO for seed in SEEDS
+        (case.name, how.name, seed) for case in SMALL for how in TWO for seed in SEEDS
     }
     for row in searches:
         assert row["version"] == version()
@@ -78,8 +78,8 @@ def test_a_second_run_does_what_is_missing(records: Records, tmp_path: Path) -> 
 def test_a_record_is_the_search_of_its_user(records: Records) -> None:
     """`niwaki.grow(model, target)` with that seed has the recorded score."""
     row = next(row for row in records.searches() if row["problem"] == "ship" and row["method"] == "default")
-    one, case = problem("ship"), case_of("ship", row["seed"])
-    assert nw.grow(one.model, case.target, seed=row["seed"]).best.log_score == row["score"]
+    ship, case = problem("ship"), case_of("ship", row["seed"])
+    assert nw.grow(ship.model, case.target, seed=row["seed"]).best.log_score == row["score"]
 
 
 def shape_of(parts: dict, *without: str) -> Scene:
@@ -122,26 +122,26 @@ def test_a_skyline_lacks_the_tower_that_is_not_built() -> None:
     assert not has_enough("skylines", left)
 
 
-@pytest.mark.parametrize("one", PROBLEMS, ids=lambda one: one.name)
-def test_every_problem_has_a_target_and_parts_that_count(one: Problem) -> None:
-    case = one.case(PILOT[0])
-    least, why = LEAST[one.name]
+@pytest.mark.parametrize("task", PROBLEMS, ids=lambda task: task.name)
+def test_every_problem_has_a_target_and_parts_that_count(task: Problem) -> None:
+    case = task.case(PILOT[0])
+    least, why = LEAST[task.name]
     shares = case.measure(Scene([]))
     assert why
     assert all(any(word in name.split() for name in shares) for word in least)
-    assert not has_enough(one.name, shares)
+    assert not has_enough(task.name, shares)
     assert (case.target is None) == bool(case.score is not None and case.score.views)
 
 
 def test_targets_of_seeds_are_the_same_again_and_differ() -> None:
-    for one in PROBLEMS:
-        if one.is_made and one.case(51).target is not None:
-            first, again, other = (one.case(seed).target.vertices for seed in (51, 51, 52))
+    for case in PROBLEMS:
+        if case.is_made and case.case(51).target is not None:
+            first, again, other = (case.case(seed).target.vertices for seed in (51, 51, 52))
             assert np.array_equal(first, again)
             assert not np.array_equal(first, other)
-    assert sum(one.is_made for one in PROBLEMS) >= len(PROBLEMS) / 2
-    everything = [*SETS["tuning"], *SETS["held_out"], *PILOT]
-    assert len(set(everything)) == 2 * MOST + len(PILOT)
+    assert sum(case.is_made for case in PROBLEMS) >= len(PROBLEMS) / 2
+    seeds = [*SETS["tuning"], *SETS["held_out"], *PILOT]
+    assert len(set(seeds)) == 2 * MOST + len(PILOT)
 
 
 def test_paired_differences_follow_the_seeds() -> None:
@@ -154,8 +154,8 @@ def test_paired_differences_follow_the_seeds() -> None:
 
     rows = [row(k, "default", -10.0 + k, 1.0) for k in range(10)]
     rows += [row(k, "chain", -12.0 + k, 0.0) for k in range(9)] + [row(9, "chain", None, 0.0)]
-    found = table.pairs(table.of(rows, "ship", "default"), table.of(rows, "ship", "chain"))
-    scores, complete = table.gains(found)
+    pairs = table.pairs(table.of(rows, "ship", "default"), table.of(rows, "ship", "chain"))
+    scores, complete = table.gains(pairs)
     assert scores == [2.0] * 9 + [29.0]
     assert complete == [1.0] * 10
     mean, low, high = table.interval([scores])
@@ -163,7 +163,7 @@ def test_paired_differences_follow_the_seeds() -> None:
     # The one large difference is drawn 0 to 3 times (0.3 to 98 % of the draws), each worth 2.7.
     assert (low, high) == pytest.approx((2.0, 10.1))
     assert table.interval([[1.0] * 5, [0.0] * 5]) == (0.5, 0.5, 0.5)
-    s = table.summary([one for one in rows if one["method"] == "chain"])
+    s = table.summary([line for line in rows if line["method"] == "chain"])
     assert (s["median"], s["worst"], s["dead"], s["complete"]) == (-8.5, -30.0, 1, 0)
 
 
@@ -175,5 +175,5 @@ def test_sizes_scale_with_the_budget() -> None:
 
 def test_a_search_that_dies_has_no_result() -> None:
     """The manual's garden path: a population builds the tower first, too wide for the wall."""
-    one, population = problem("wall and tower"), Method("", lambda n: {"method": nw.smc(n, power=16.0)})
-    assert grown(one, case_of(one.name, 51), population, 20, 51) is None
+    task, population = problem("wall and tower"), Method("", lambda n: {"method": nw.smc(n, power=16.0)})
+    assert grown(task, case_of(task.name, 51), population, 20, 51) is None

@@ -15,19 +15,19 @@ from stacking.metropolis import Units, keeper, walk
 
 def autoregressive(share: float, chains: int, draws: int) -> np.ndarray:
     random = np.random.default_rng(5)
-    found = np.zeros((chains, draws, 3))
-    found[:, 0] = random.normal(size=(chains, 3))
+    values = np.zeros((chains, draws, 3))
+    values[:, 0] = random.normal(size=(chains, 3))
     for k in range(1, draws):
         fresh = random.normal(size=(chains, 3))
-        found[:, k] = share * found[:, k - 1] + np.sqrt(1 - share * share) * fresh
-    return found
+        values[:, k] = share * values[:, k - 1] + np.sqrt(1 - share * share) * fresh
+    return values
 
 
 def test_effective_draws_of_an_autoregression_are_the_known_share():
-    found = autoregressive(0.5, 8, 2000)
+    draws = autoregressive(0.5, 8, 2000)
     # (1 - a) / (1 + a) of the draws; 16000 draws know it to some percent.
-    assert effective(found) == pytest.approx(16000 / 3, rel=0.12)
-    assert autocorrelation(found)[:3] == pytest.approx([1.0, 0.5, 0.25], abs=0.05)
+    assert effective(draws) == pytest.approx(16000 / 3, rel=0.12)
+    assert autocorrelation(draws)[:3] == pytest.approx([1.0, 0.5, 0.25], abs=0.05)
     assert effective(autoregressive(0.0, 4, 500)) == pytest.approx(2000, rel=0.15)
 
 
@@ -46,8 +46,8 @@ def test_a_line_that_was_cut_short_is_judged_again(tmp_path: Path):
 def test_chains_come_back_as_they_were(tmp_path: Path):
     drawn = Drawn(["a", "b"], np.array([[1.5, -2.0], [0.25, 1e-9]]), 1.0, 2.0, 3.0, 4, 0.5, 0, "none")
     drawn.save(chain_file(tmp_path, "stack", "nuts", 0))
-    (found,) = chains(tmp_path, "stack", "nuts")
-    assert found.choices(1) == {"a": 0.25, "b": 1e-9}
+    (chain,) = chains(tmp_path, "stack", "nuts")
+    assert chain.choices(1) == {"a": 0.25, "b": 1e-9}
     assert not list(tmp_path.glob("*.part"))
 
 
@@ -68,18 +68,18 @@ def drawn_by(original: bool) -> np.ndarray:
 
 
 def test_the_chain_that_is_put_right_draws_from_the_model():
-    found = drawn_by(original=False)
-    assert effective(found[None, :, :]) > 300
-    assert found.mean(axis=0) == pytest.approx([3.5, 0.5, 0.0], abs=0.25)
-    assert found.std(axis=0) == pytest.approx([3.0 / 12**0.5, 0.5, 1.0], rel=0.2)
+    draws = drawn_by(original=False)
+    assert effective(draws[None, :, :]) > 300
+    assert draws.mean(axis=0) == pytest.approx([3.5, 0.5, 0.0], abs=0.25)
+    assert draws.std(axis=0) == pytest.approx([3.0 / 12**0.5, 0.5, 1.0], rel=0.2)
 
 
 def test_the_original_chain_draws_from_another():
     # The Jacobian of y in (a, b), (y - a)(b - y), and that of y above 0, y, are in its density.
-    found = drawn_by(original=True)
-    assert effective(found[None, :, :]) > 300
-    assert found.mean(axis=0) == pytest.approx([3.5, 1.0, 0.0], abs=0.25)
-    assert found.std(axis=0) == pytest.approx([3.0 / 20**0.5, 0.5**0.5, 1.0], rel=0.15)
+    draws = drawn_by(original=True)
+    assert effective(draws[None, :, :]) > 300
+    assert draws.mean(axis=0) == pytest.approx([3.5, 1.0, 0.0], abs=0.25)
+    assert draws.std(axis=0) == pytest.approx([3.0 / 20**0.5, 0.5**0.5, 1.0], rel=0.15)
 
 
 def test_units_are_those_of_the_choices():

@@ -36,15 +36,15 @@ class Case:
 def cases(path: Path) -> Iterator[Case]:
     """The programs of a file."""
     text = path.read_text()
-    found: list[Case] = []
+    programs: list[Case] = []
     for match in FENCE.finditer(text):
         kind, body = match.groups()
         if kind == "python":
             line = text.count("\n", 0, match.start()) + 1
-            found.append(Case(f"{path.stem}:{line}", body))
-        elif found:
-            found[-1].expected[kind] = body
-    yield from found
+            programs.append(Case(f"{path.stem}:{line}", body))
+        elif programs:
+            programs[-1].expected[kind] = body
+    yield from programs
 
 
 def load(program: str, name: str) -> Any:

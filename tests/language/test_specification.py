@@ -35,9 +35,9 @@ def test_program(case: Case) -> None:
         return
     run = run_python(model, **settings)
     if "value" in expected:
-        wanted = eval(expected["value"], {"inf": math.inf})
-        assert run.value == wanted
-        assert repr(run.value) == repr(wanted)
+        value = eval(expected["value"], {"inf": math.inf})
+        assert run.value == value
+        assert repr(run.value) == repr(value)
     if "made" in expected:
         assert list(run.choices) == expected["made"].splitlines()
     if "scene" in expected:

@@ -18,12 +18,12 @@ README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
 def test_the_first_program_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    found = re.search(r"```python\n(.*?)```", README, re.DOTALL)
-    assert found is not None
+    block = re.search(r"```python\n(.*?)```", README, re.DOTALL)
+    assert block is not None
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "tower.py").write_text(found[1], encoding="utf-8")
-    made = runpy.run_path("tower.py", run_name="__main__")
-    assert made["result"].best.fit.covered > 0.8 and len(made["ten"]) == 10
+    (tmp_path / "tower.py").write_text(block[1], encoding="utf-8")
+    variables = runpy.run_path("tower.py", run_name="__main__")
+    assert variables["result"].best.fit.covered > 0.8 and len(variables["ten"]) == 10
     assert nw.Target.load("tower.glb").volume > 0.0
     assert (tmp_path / "tower.png").stat().st_size > 0
 

@@ -12,9 +12,9 @@ collect_ignore_glob = [] if FOLDER else ["test_*.py"]
 
 
 def _only(pattern: str) -> Path:
-    found = sorted(Path(FOLDER or "").resolve().glob(pattern))
-    assert len(found) == 1, f"{FOLDER} has {len(found)} files {pattern}"
-    return found[0]
+    files = sorted(Path(FOLDER or "").resolve().glob(pattern))
+    assert len(files) == 1, f"{FOLDER} has {len(files)} files {pattern}"
+    return files[0]
 
 
 @pytest.fixture(scope="session")

@@ -22,13 +22,13 @@ def pythons() -> dict[str, str]:
         *map(str, sorted(home.glob("versions/3.*/bin/python"))),
         sys.executable,
     ]
-    found: dict[str, str] = {}
+    versions: dict[str, str] = {}
     program = "import sys, venv, ensurepip; print(*sys.version_info[:2], sep='.')"
     for place in places:
-        said = subprocess.run([place, "-Ic", program], capture_output=True, text=True).stdout.strip()
-        if said and tuple(map(int, said.split("."))) >= (3, 11):
-            found.setdefault(said, place)
-    return found
+        version = subprocess.run([place, "-Ic", program], capture_output=True, text=True).stdout.strip()
+        if version and tuple(map(int, version.split("."))) >= (3, 11):
+            versions.setdefault(version, place)
+    return versions
 
 
 class Environment:
@@ -48,7 +48,7 @@ class Environment:
         subprocess.run([*pip, *arguments], check=True, env=environment, cwd=self.folder)
 
     def run(self, *command: str) -> str:
-        """What a program of the environment prints; it must succeed."""
+        """Return the output of a program of the environment; it must succeed."""
         ended = subprocess.run(
             [self.programs / command[0], *command[1:]],
             env=self.variables,

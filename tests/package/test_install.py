@@ -25,13 +25,13 @@ def test_the_wheel_grows_the_spaceship(python: str, wheel: Path, tmp_path: Path)
     empty = Environment(python, tmp_path)
     empty.install("--require-hashes", "-r", ROOT / "requirements" / "core.txt")
     empty.install("--no-deps", "--no-index", wheel)
-    told = empty.run("niwaki", "grow", "spaceship", "--seed", "1", "-o", "out")
-    assert "covered" in told
+    output = empty.run("niwaki", "grow", "spaceship", "--seed", "1", "-o", "out")
+    assert "covered" in output
     assert {"best.glb", "best.png", "run.json"} <= {file.name for file in (tmp_path / "out").iterdir()}
     assert all(file.stat().st_size for file in (tmp_path / "out").iterdir())
-    found = json.loads(empty.run("niwaki", "doctor", "--json"))
-    assert found["works"] and not any("starlette" == name for name in found["versions"])
-    assert all(extra["missing"] for extra in found["extras"])
+    report = json.loads(empty.run("niwaki", "doctor", "--json"))
+    assert report["works"] and not any("starlette" == name for name in report["versions"])
+    assert all(extra["missing"] for extra in report["extras"])
     where = empty.run("python", "-c", "import niwaki; print(niwaki.__file__)")
     assert where.startswith(str(tmp_path))
 
@@ -40,9 +40,9 @@ def test_the_extras_install_what_they_name(wheel: Path, tmp_path: Path) -> None:
     named = sorted(set(EXTRAS) - LARGE)
     empty = Environment(sys.executable, tmp_path)
     empty.install(f"{wheel}[{','.join(named)}]")
-    found = json.loads(empty.run("niwaki", "doctor", "--json"))
-    assert found["works"]
-    assert {extra["name"] for extra in found["extras"] if not extra["missing"]} >= set(named)
+    report = json.loads(empty.run("niwaki", "doctor", "--json"))
+    assert report["works"]
+    assert {extra["name"] for extra in report["extras"] if not extra["missing"]} >= set(named)
     libraries = "anywidget, arviz, resvg_py, pyarrow.parquet, manifold3d, mujoco, scipy.sparse, shapely"
     # The studio needs POSIX limits of resources.
     served = "starlette, uvicorn, watchfiles, websockets" if os.name == "nt" else "niwaki.studio.serving"

@@ -96,7 +96,7 @@ class Entry:
             drawing = targets.drawings.find(self.drawing_name)
             return [("match_drawing", {"image": drawing, "window": self.window})]
         score = nw.Score() if self.score is None else self.score()
-        return [(ask.function, dict(ask.given)) for ask in score.asks]
+        return [(ask.function, dict(ask.arguments)) for ask in score.asks]
 
     def target(self) -> nw.Target | None:
         """Make the usual target."""

@@ -129,27 +129,27 @@ class Kernel:
         return self.first("hmc_step", "nuts_step") is not None
 
     def __repr__(self) -> str:
-        own = self.settings
+        settings = self.settings
         if self.name in ("hmc_step", "nuts_step"):
-            shown = [f"{key}={value}" for key, value in own.items() if key not in ("steps", "max_depth")]
-            length = str(own["steps" if self.name == "hmc_step" else "max_depth"])
-            return f"{self.name}({', '.join([length, *(one for one in shown if one != 'jitter=0.0')])})"
+            shown = [f"{key}={value}" for key, value in settings.items() if key not in ("steps", "max_depth")]
+            length = str(settings["steps" if self.name == "hmc_step" else "max_depth"])
+            return f"{self.name}({', '.join([length, *(setting for setting in shown if setting != 'jitter=0.0')])})"
         if self.name == "on":
             (inner,) = self.parts
-            if own["sites"]:
-                return f"on({own['sites'][0]!r}, {inner!r})"
-            depth = ", depth=..." if own["depth"] else ""
-            sites = f", sites={dict(own['weights'])!r}" if own["weights"] else ""
+            if settings["sites"]:
+                return f"on({settings['sites'][0]!r}, {inner!r})"
+            depth = ", depth=..." if settings["depth"] else ""
+            sites = f", sites={dict(settings['weights'])!r}" if settings["weights"] else ""
             return f"weighted({inner!r}{depth}{sites})"
         if self.name == "mixture":
-            weights = ", ".join(map(repr, own["weights"]))
+            weights = ", ".join(map(repr, settings["weights"]))
             return f"mixture({weights}, {', '.join(map(repr, self.parts))})"
         if self.name == "regrow":
-            named = own["pick"] if isinstance(own["pick"], str) else None
-            which = f"pick={named!r}" if named else f"parts={own['pick']['parts']!r}"
+            named = settings["pick"] if isinstance(settings["pick"], str) else None
+            selection = f"pick={named!r}" if named else f"parts={settings['pick']['parts']!r}"
             guide = "" if self.function is None else f", guide={self.function!r}"
-            return f"regrow({own['particles']}, turn={own['turn']}, {which}{guide})"
-        parts = [repr(one) for one in (*own.values(), *self.parts)]
+            return f"regrow({settings['particles']}, turn={settings['turn']}, {selection}{guide})"
+        parts = [repr(value) for value in (*settings.values(), *self.parts)]
         if isinstance(self.function, Guide):
             parts.append(repr(self.function))
         elif self.function is not None:

@@ -344,15 +344,25 @@ def summarise(draws: Mapping[str, ArrayLike], divergences: Divergences | None = 
     divergences
         Trajectories that broke off, of chains that follow the gradient.
     """
-    found = []
+    rows = []
     for name, values in draws.items():
         x = np.asarray(values, dtype=np.float64)
         for place in np.ndindex(*x.shape[2:]):
-            one = x[(slice(None), slice(None), *place)]
+            quantity = x[(slice(None), slice(None), *place)]
             label = f"{name}[{', '.join(map(str, place))}]" if place else name
-            mean, sd = float(one.mean()), _deviation(one) if one.size > 1 else math.nan
-            found.append(Summary(label, mean, sd, mcse_mean(one), ess_bulk(one), ess_tail(one), rhat(one)))
-    summaries = Summaries(found)
+            mean, sd = float(quantity.mean()), _deviation(quantity) if quantity.size > 1 else math.nan
+            rows.append(
+                Summary(
+                    label,
+                    mean,
+                    sd,
+                    mcse_mean(quantity),
+                    ess_bulk(quantity),
+                    ess_tail(quantity),
+                    rhat(quantity),
+                )
+            )
+    summaries = Summaries(rows)
     if divergences is not None:
         summaries.divergences = divergences
     return summaries

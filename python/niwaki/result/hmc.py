@@ -144,7 +144,7 @@ class HmcInfo(DrawnInfo):
     def _summary(self) -> diagnostics.Summaries:
         return diagnostics.summarise({**self.draws, "log density": self.log_density}, self.divergences)
 
-    def _says(self, samples: str) -> list[str]:
+    def _repr_parts(self, samples: str) -> list[str]:
         return [samples, f"{self.gradients} gradients", *self.divergences.named]
 
     def statistics(self) -> dict[str, NDArray[Any]]:

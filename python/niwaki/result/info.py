@@ -117,7 +117,7 @@ class Info:
         """The samples among which the best is found."""
         return samples
 
-    def _says(self, samples: str) -> list[str] | None:
+    def _repr_parts(self, samples: str) -> list[str] | None:
         """Parts of a line that describes a result, with a text about its samples; None for its best sample."""
         return None
 
@@ -149,7 +149,7 @@ class EnumerationInfo(Info):
     unseen: float = 0.0
     log_unseen: float | None = None
 
-    def _says(self, samples: str) -> list[str]:
+    def _repr_parts(self, samples: str) -> list[str]:
         return [f"{len(self.table)} values, {self.runs} runs"]
 
     def bounds(self, value: Any) -> tuple[float, float]:

@@ -159,7 +159,7 @@ class ViInfo(DrawnInfo):
         shares = np.exp(logs - logs.max())
         return float(shares.sum() ** 2 / np.square(shares).sum())
 
-    def _says(self, samples: str) -> list[str]:
+    def _repr_parts(self, samples: str) -> list[str]:
         bound = f"evidence bound {self.log_evidence_bound:.4g} ({self.bound_error:.1g})"
         return [samples, f"{self.gradients} gradients", bound, f"k-hat {self.k_hat:.2f}"]
 

@@ -358,7 +358,7 @@ class Result(Sequence[Sample]):
 
         Where an image or a shadow is matched and no volume, they are seen from its camera.
         """
-        ranked = sorted(enumerate(self.samples, 1), key=lambda one: -one[1].log_score)[:most]
+        ranked = sorted(enumerate(self.samples, 1), key=lambda entry: -entry[1].log_score)[:most]
         scenes = [sample.scene for _, sample in ranked]
         captions = [caption(sample, number) for number, sample in ranked]
         if self.score.window is not None:
@@ -385,20 +385,20 @@ class Result(Sequence[Sample]):
             png = draw.picture.png(self.sheet(most=6, size=(240, 180), samples=1))
         rows |= {"log evidence": self.log_evidence, "seed": self.seed, "seconds": f"{self.seconds:.2f}"}
         rows |= {
-            "invalid": sum(one.runs for one in self.invalid) or None,
+            "invalid": sum(place.runs for place in self.invalid) or None,
             "interrupted": self.interrupted or None,
         }
         return draw.card.card(f"Result of {self.model.name}", rows, png)
 
     def _outside(self) -> list[str]:
         """The part of the summary about invalid runs."""
-        return [f"{sum(one.runs for one in self.invalid)} invalid"] if self.invalid else []
+        return [f"{sum(place.runs for place in self.invalid)} invalid"] if self.invalid else []
 
     def __repr__(self) -> str:
         samples = f"{len(self)} sample{'' if len(self) == 1 else 's'}"
-        said = self.info._says(samples)
-        parts = [samples] if said is None else said
-        if said is None and (self.samples or self.info._pool(self.samples)):
+        specific = self.info._repr_parts(samples)
+        parts = [samples] if specific is None else specific
+        if specific is None and (self.samples or self.info._pool(self.samples)):
             parts.append(f"best log score {self.best.log_score:.2f}")
             if self.best.fit is not None:
                 parts.append(str(self.best.fit))

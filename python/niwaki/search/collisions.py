@@ -34,21 +34,21 @@ def breaking(scene: Scene, specs: Sequence[_engine.SketchSpec]) -> list[str]:
     """
     empty = _engine.Sketch(specs)
     addresses: set[str] = set()
-    others: list[tuple[Part, np.ndarray, np.ndarray]] = []
+    boxes: list[tuple[Part, np.ndarray, np.ndarray]] = []
     for part in scene.parts[:PARTS]:
         if empty.fork().add(part.shapes) is not None:
             addresses.add(part.address)
             continue
         corners = np.concatenate([shape.vertices() for shape in part.shapes])
         low, high = corners.min(axis=0), corners.max(axis=0)
-        for other, other_low, other_high in others:
+        for other, other_low, other_high in boxes:
             if (low > other_high).any() or (high < other_low).any():
                 continue
             both = empty.fork()
             both.add(other.shapes)
             if both.add(part.shapes) is not None:
                 addresses |= {part.address, other.address}
-        others.append((part, low, high))
+        boxes.append((part, low, high))
     return [part.address for part in scene.parts if part.address in addresses]
 
 

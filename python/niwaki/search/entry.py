@@ -262,12 +262,12 @@ def default_method(settings: Mapping[str, Any], power: float = POWER) -> Method:
     if set(settings) <= set(OF_IMPROVE) and set(settings) != {"guide"}:
         return Improve(**settings)
     if "rounds" in settings:
-        others = ", ".join(f"`{name}`" for name in settings if name not in OF_IMPROVE)
+        extras = ", ".join(f"`{name}`" for name in settings if name not in OF_IMPROVE)
         raise InputError(
             "bad-setting",
             name="rounds",
             found=repr(settings["rounds"]),
-            expected=f"no {others} beside it, which {'is a setting' if ',' not in others else 'are settings'} of `smc`",
+            expected=f"no {extras} beside it, which {'is a setting' if ',' not in extras else 'are settings'} of `smc`",
             suggestion=f"`method=improve(...)`, which has {', '.join(f.name for f in fields(Improve))}",
         )
     if "guide" in settings:

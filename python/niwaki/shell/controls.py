@@ -72,7 +72,7 @@ def terms(options: Mapping[str, Any], reference: ModelReference) -> list[Ask]:
             reason="there is one --camera and one --weight-image for both",
             cure="multiply `match_image(...)` and `match_shadow(...)` in Python",
         )
-    return reference.asked(read(options))
+    return reference.terms(read(options))
 
 
 def read(options: Mapping[str, Any]) -> dict[str, Any]:

@@ -19,7 +19,7 @@ Quick = Annotated[
         "--quick", help="Draw small pictures with one ray for each pixel, in some hundredths of a second."
     ),
 ]
-Wanted = Annotated[
+PictureFlag = Annotated[
     bool,
     typer.Option("--picture/--no-picture", help="Draw best.png, sheet.png and the views that were matched."),
 ]
@@ -61,7 +61,7 @@ def impossible(search: nw.Search, folder: Path, quick: bool) -> str:
 class Pictures:
     """Flags about pictures: whether to draw them, and whether as drafts."""
 
-    wanted: Wanted = True
+    wanted: PictureFlag = True
     quick: Quick = False
 
     def names(self, result: nw.Result, style: str | None) -> list[str]:

@@ -38,7 +38,7 @@ class ModelReference:
     entry: Entry | None = None
     file_hash: str | None = None
 
-    def asked(self, options: Mapping[str, Any]) -> list[Ask]:
+    def terms(self, options: Mapping[str, Any]) -> list[Ask]:
         """Return the terms of the score for options (`niwaki.targets.asks`); without a match, the gallery's."""
         if self.entry is None:
             return asks.sketches_of(options, name=self.name)

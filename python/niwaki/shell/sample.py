@@ -55,7 +55,7 @@ def sample(
             _end(result, reference, folder, images, out, stored)
         return
     reference, values = resume.model_of(context, source)
-    asks = reference.asked(options) if options["target"] is not None else []
+    asks = reference.terms(options) if options["target"] is not None else []
     typed = settings.typed(method_settings)
     steps = typed.get("steps", Mh.steps)
     method = Mh(**{"kernel": kernels.prior(), "chains": 4, "warmup": steps // 5, "keep": 100, **typed})

@@ -75,7 +75,7 @@ def _of_volume(call: SketchCall, grid: _engine.Target, scene: Scene) -> Fit:
     filled = measures["filled"] * cell
     bounds = scene.bounds
     if len(scene) and ((bounds[0] < low).any() or (bounds[1] > high).any()):
-        filled = max(filled, _volume(scene, float(call.given["voxel"])))
+        filled = max(filled, _volume(scene, float(call.arguments["voxel"])))
     return Fit(inside / grid.filled, max(0.0, 1.0 - inside * cell / filled) if filled > 0.0 else 0.0)
 
 

@@ -138,8 +138,8 @@ def _pixels(image: Image) -> files.Pixels:
     values = np.asarray(image)
     whole = values.ndim == 2 or (values.ndim == 3 and values.shape[2] in (1, 3, 4))
     if not whole or values.size == 0 or values.dtype.kind not in "buif":
-        found = f"an array of shape {values.shape} and type {values.dtype}"
-        raise InputError("bad-image", found=found)
+        text = f"an array of shape {values.shape} and type {values.dtype}"
+        raise InputError("bad-image", found=text)
     if values.dtype.kind == "f" and not np.isfinite(values).all():
         raise InputError("bad-image", found="an array with values that are not finite")
     check("pixels", values.shape[0] * values.shape[1], None)

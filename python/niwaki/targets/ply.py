@@ -301,10 +301,10 @@ def _head(data: bytes) -> tuple[str, list[_Element], int]:
     raise Unreadable("its head does not end, or names no format")
 
 
-def _element(words: list[str], others: list[_Element]) -> _Element:
+def _element(words: list[str], elements: list[_Element]) -> _Element:
     if len(words) != 3 or not words[2].isdecimal() or len(words[2]) > 18:
         raise Unreadable(f"its head announces {' '.join(words[2:]):.40} rows")
-    if any(other.name == words[1] for other in others):
+    if any(other.name == words[1] for other in elements):
         raise Unreadable(f"its head announces `{words[1]:.40}` twice")
     return _Element(words[1], int(words[2]))
 

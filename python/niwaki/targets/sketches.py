@@ -103,7 +103,7 @@ class SketchCall:
     """
 
     function: str
-    given: Mapping[str, Any]
+    arguments: Mapping[str, Any]
     spec: _engine.SketchSpec
     grid: _engine.Target | None = None
 
@@ -134,12 +134,17 @@ class Score:
     @property
     def window(self) -> Window | None:
         """The part of the plane that its drawings show, or None. With a window, scenes are drawn, not built."""
-        return next((sketch.given["window"] for sketch in self.asks if "window" in sketch.given), None)
+        return next(
+            (sketch.arguments["window"] for sketch in self.asks if "window" in sketch.arguments), None
+        )
 
     def data(self, write: Callable[[Any], Any]) -> list[dict[str, Any]]:
         """Return the sketches as plain data; `write` converts arguments."""
         return [
-            {"sketch": sketch.function, "given": {name: write(value) for name, value in sketch.given.items()}}
+            {
+                "sketch": sketch.function,
+                "given": {name: write(value) for name, value in sketch.arguments.items()},
+            }
             for sketch in self.asks
         ]
 
@@ -205,8 +210,8 @@ def match_volume(target: Target | Place, voxel: float | None = None, sigma: floa
     real("sigma", sigma, 0)
     with geometry_errors(solid, size):
         grid = _engine.Target(solid.vertices, solid.faces, size)
-    given = {"target": solid, "voxel": size, "sigma": sigma}
-    return _score("match_volume", given, {"sigma": sigma}, grid=grid, target=solid)
+    arguments = {"target": solid, "voxel": size, "sigma": sigma}
+    return _score("match_volume", arguments, {"sigma": sigma}, grid=grid, target=solid)
 
 
 def match_image(
@@ -237,8 +242,8 @@ def match_image(
     real("sigma", sigma, 0)
     with picture_errors():
         picture = _engine.Picture(viewpoint.lens(), on, greys, real("weight", weight, 0, ends="[)"))
-    given = {"image": on, "camera": viewpoint, "weight_image": greys, "weight": weight, "sigma": sigma}
-    return _score("match_image", given, {"sigma": sigma}, view=View("image", viewpoint, on, picture))
+    arguments = {"image": on, "camera": viewpoint, "weight_image": greys, "weight": weight, "sigma": sigma}
+    return _score("match_image", arguments, {"sigma": sigma}, view=View("image", viewpoint, on, picture))
 
 
 def match_shadow(
@@ -279,7 +284,7 @@ def match_shadow(
             (floor.vertices, floor.faces),
             direction,
         )
-    given = {
+    arguments = {
         "image": on,
         "light": direction,
         "receiver": floor,
@@ -289,7 +294,7 @@ def match_shadow(
         "sigma": sigma,
     }
     view = View("shadow", viewpoint, on, picture, floor, direction)
-    return _score("match_shadow", given, {"sigma": sigma}, view=view)
+    return _score("match_shadow", arguments, {"sigma": sigma}, view=view)
 
 
 def match_drawing(
@@ -319,9 +324,9 @@ def match_drawing(
     greys = targets.images.ink(image, None if pixels is None else check_count("pixels", pixels))
     real("sigma", sigma, 0)
     drawing = _engine.Drawing(greys, *shown)
-    given = {"image": greys, "window": shown, "pixels": None, "sigma": sigma}
+    arguments = {"image": greys, "window": shown, "pixels": None, "sigma": sigma}
     view = View("drawing", None, greys < 255, drawing, window=shown)
-    return _score("match_drawing", given, {"sigma": sigma}, view=view)
+    return _score("match_drawing", arguments, {"sigma": sigma}, view=view)
 
 
 def fill_drawing(
@@ -350,8 +355,8 @@ def fill_drawing(
     columns, rows = (check_count("size", number) for number in size)
     real("sigma", sigma, 0)
     share = real("share", share, 0, 1, "(]")
-    given = {"window": shown, "size": (columns, rows), "share": share, "sigma": sigma}
-    return _score("fill_drawing", given, given)
+    arguments = {"window": shown, "size": (columns, rows), "share": share, "sigma": sigma}
+    return _score("fill_drawing", arguments, arguments)
 
 
 def avoid(obstacle: Target | Place, voxel: float | None = None) -> Score:
@@ -374,8 +379,8 @@ def avoid(obstacle: Target | Place, voxel: float | None = None) -> Score:
 
 def floor(y: float = 0.0) -> Score:
     """Forbid scenes that reach below the height `y`. A scene may stand on it."""
-    given = {"y": real("y", y)}
-    return _score("floor", given, given)
+    arguments = {"y": real("y", y)}
+    return _score("floor", arguments, arguments)
 
 
 def overshoot(
@@ -412,8 +417,8 @@ def overshoot(
             expected="a low corner below the high one along x, y and z",
             suggestion="such a box, for instance ((-5, 0, -5), (5, 10, 5))",
         )
-    given = {"domain": (low, high), "sigma": sigma}
-    return _score("overshoot", given, given)
+    arguments = {"domain": (low, high), "sigma": sigma}
+    return _score("overshoot", arguments, arguments)
 
 
 #: The functions that make sketches, by name, in the order of the engine's table. `niwaki.targets.asks` multiplies them
@@ -423,7 +428,7 @@ SKETCHES: dict[str, Callable[..., Score]] = {name: globals()[name] for name in _
 
 def _score(
     function: str,
-    given: dict[str, Any],
+    arguments: dict[str, Any],
     settings: dict[str, Any],
     *,
     grid: _engine.Target | None = None,
@@ -435,7 +440,7 @@ def _score(
     picture = seen if isinstance(seen, _engine.Picture) else None
     drawing = seen if isinstance(seen, _engine.Drawing) else None
     spec = _engine.SketchSpec(json.dumps({function: settings}), grid, picture, drawing)
-    return Score((SketchCall(function, given, spec, grid),), target, () if view is None else (view,))
+    return Score((SketchCall(function, arguments, spec, grid),), target, () if view is None else (view,))
 
 
 def _wish(image: Image, weight_image: Image | None) -> tuple[NDArray[np.bool_], NDArray[np.uint8] | None]:

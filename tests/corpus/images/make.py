@@ -48,10 +48,10 @@ def files(grey: Any, is_dark: bool) -> dict[str, bytes]:
     page = Image.fromarray(grey)
     deep = Image.fromarray(grey.astype(np.uint16) * 257)
     rgb, other = page.convert("RGB"), Image.fromarray(255 - grey)
-    found = {
+    contents = {
         f"{mode.lower()}.png": written(page.convert(mode), "PNG") for mode in ("1", "L", "P", "RGB", "LA")
     }
-    found |= {
+    contents |= {
         "16-bit.png": written(deep, "PNG"),
         "16-bit.tif": written(deep, "TIFF"),
         "16-bit-white-is-0.tif": written(
@@ -77,15 +77,15 @@ def files(grey: Any, is_dark: bool) -> dict[str, bytes]:
         "broken-exif.png": written(page, "PNG", exif=b"Exif\0\0garbage"),
         "xmp-6.png": written(turned(page, 6), "PNG", pnginfo=xmp(6)),
     }
-    found |= {f"exif-{k}.jpg": written(turned(rgb, k), "JPEG", exif=exif(k), quality=75) for k in TURNED}
+    contents |= {f"exif-{k}.jpg": written(turned(rgb, k), "JPEG", exif=exif(k), quality=75) for k in TURNED}
     for form, settings in (("png", {}), ("webp", {"lossless": True}), ("tif", {})):
         for k in (3, 6, 7):
             kind = {"png": "PNG", "webp": "WEBP", "tif": "TIFF"}[form]
-            found[f"exif-{k}.{form}"] = written(turned(rgb, k), kind, exif=exif(k), **settings)
+            contents[f"exif-{k}.{form}"] = written(turned(rgb, k), kind, exif=exif(k), **settings)
     clear = np.zeros((*grey.shape, 4), np.uint8)
     clear[LETTER] = (0, 0, 0, 255) if is_dark else (255, 255, 255, 255)
     see = Image.fromarray(clear)
-    found |= {
+    contents |= {
         "clear.png": written(see, "PNG"),
         "clear.gif": written(see, "GIF"),
         "clear.webp": written(see, "WEBP", quality=60),
@@ -97,7 +97,7 @@ def files(grey: Any, is_dark: bool) -> dict[str, bytes]:
         ),
         "clear-16-bit.png": written(deep_on(grey, 40000), "PNG", transparency=40000),
     }
-    return found
+    return contents
 
 
 def written(image: Image.Image, kind: str, **settings: Any) -> bytes:
@@ -114,14 +114,14 @@ def turned(image: Image.Image, orientation: int) -> Image.Image:
 
 
 def exif(orientation: int) -> Image.Exif:
-    """What a camera notes."""
-    found = Image.Exif()
-    found[0x112] = orientation
-    return found
+    """Tags that a camera writes."""
+    tags = Image.Exif()
+    tags[0x112] = orientation
+    return tags
 
 
 def xmp(orientation: int) -> PngInfo:
-    """The same as Adobe's programs note it."""
+    """Return an orientation as Adobe's programs write it."""
     info = PngInfo()
     info.add_itxt(
         "XML:com.adobe.xmp",
@@ -140,9 +140,9 @@ def profile() -> bytes:
 def lab(image: Image.Image) -> Image.Image:
     """An image in CIELAB."""
     spaces = ImageCms.createProfile("sRGB"), ImageCms.createProfile("LAB")
-    found = ImageCms.profileToProfile(image, *spaces, outputMode="LAB")
-    assert found is not None
-    return found
+    converted = ImageCms.profileToProfile(image, *spaces, outputMode="LAB")
+    assert converted is not None
+    return converted
 
 
 def deep_on(grey: Any, paper: int) -> Image.Image:

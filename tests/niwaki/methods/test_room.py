@@ -271,7 +271,11 @@ nw.draw.picture.picture(scene)
 def ran(text: str, *words: str, **variables: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         [sys.executable, "-c", text, *words],
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(one for one in sys.path if one), **variables},
+        env={
+            **os.environ,
+            "PYTHONPATH": os.pathsep.join(folder for folder in sys.path if folder),
+            **variables,
+        },
         capture_output=True,
         text=True,
         check=False,

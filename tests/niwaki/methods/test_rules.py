@@ -128,8 +128,8 @@ def test_settings_of_kernels_have_ranges(name: str, make: Callable[[Any], Any], 
 @pytest.mark.parametrize("name", ["depth", "turns", "waited", "stay", "tree"])
 def test_numbers_of_an_order_have_a_range(name: str) -> None:
     for value in (50.1, -51, float("nan"), "1"):
-        given = {"functions": {"m": 1.0, "tree": value}} if name == "tree" else {name: value}
-        assert "a number from -50 to 50" in refusal(lambda given=given: FutureOrder(**given), name)  # type: ignore[misc]
+        settings = {"functions": {"m": 1.0, "tree": value}} if name == "tree" else {name: value}
+        assert "a number from -50 to 50" in refusal(lambda settings=settings: FutureOrder(**settings), name)  # type: ignore[misc]
 
 
 @pytest.mark.parametrize("rule", RULES)

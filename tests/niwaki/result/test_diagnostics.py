@@ -22,11 +22,11 @@ needs_arviz = pytest.mark.skipif(not HAS_ARVIZ, reason="ArviZ is not installed (
 
 def noise(chains: int, draws: int) -> Any:
     """Uniform numbers in (0, 1) by a linear congruence: the same in every NumPy."""
-    state, made = 12345, []
+    state, numbers = 12345, []
     for _ in range(chains * draws):
         state = (6364136223846793005 * state + 1442695040888963407) % 2**64
-        made.append(((state >> 11) + 0.5) / 2**53)
-    return np.array(made).reshape(chains, draws)
+        numbers.append(((state >> 11) + 0.5) / 2**53)
+    return np.array(numbers).reshape(chains, draws)
 
 
 def walk(persistence: float, chains: int, draws: int) -> Any:
@@ -136,17 +136,17 @@ def theirs(x: Any) -> tuple[float, ...]:
             from arviz_stats.base import array_stats as stats
 
             sizes = [stats.ess(x, method=method, **extra) for method, extra in settings.items()]
-            found = (stats.rhat(x), *sizes, stats.mcse(x, method="mean"), np.ravel(stats.bfmi(x))[0])
+            statistics = (stats.rhat(x), *sizes, stats.mcse(x, method="mean"), np.ravel(stats.bfmi(x))[0])
         else:
             sizes = [arviz.ess(x, method=method, **extra) for method, extra in settings.items()]
-            found = (arviz.rhat(x), *sizes, arviz.mcse(x, method="mean"), arviz.bfmi(x)[0])
-    return tuple(float(one) for one in found)
+            statistics = (arviz.rhat(x), *sizes, arviz.mcse(x, method="mean"), arviz.bfmi(x)[0])
+    return tuple(float(number) for number in statistics)
 
 
 def test_what_has_not_mixed_is_seen() -> None:
-    made = chains()
-    assert diagnostics.rhat(made["independent"]) < 1.01
-    assert diagnostics.rhat(made["apart"]) > 2.0
+    samples = chains()
+    assert diagnostics.rhat(samples["independent"]) < 1.01
+    assert diagnostics.rhat(samples["apart"]) > 2.0
     # Chains that agree in place and not in spread: only the folded ranks see it.
     spread = walk(0.0, 4, 500) * np.array([1, 1, 1, 5])[:, None]
     assert diagnostics.rhat(spread) > 1.1
@@ -168,11 +168,11 @@ def test_autocorrelation_of_a_vector_is_that_of_its_parts_weighted_by_variance()
     x = np.stack([walk(0.9, 1, 400)[0], 0.1 * walk(0.0, 1, 400)[0]], axis=1)
     n, centred = len(x), x - x.mean(axis=0)
     by_hand = [float((centred[: n - t] * centred[t:]).sum() / (n - t)) for t in (0, 1, 7)]
-    found = diagnostics.autocorrelation(x)
-    assert found[0] == pytest.approx(1.0)
-    assert found[[1, 7]] == pytest.approx([by_hand[1] / by_hand[0], by_hand[2] / by_hand[0]])
+    correlation = diagnostics.autocorrelation(x)
+    assert correlation[0] == pytest.approx(1.0)
+    assert correlation[[1, 7]] == pytest.approx([by_hand[1] / by_hand[0], by_hand[2] / by_hand[0]])
     alone = diagnostics.autocorrelation(x[:, 0])
-    assert found[1] < alone[1]
+    assert correlation[1] < alone[1]
 
 
 def test_a_vector_of_one_coordinate_has_the_size_of_the_coordinate() -> None:
@@ -191,8 +191,8 @@ def test_autoregressive_chains_have_the_known_autocorrelation_and_size() -> None
         # Bartlett: an estimate of AC(t) has a standard error below sqrt((1 + phi^2) / (1 - phi^2) / n) = 0.0155 at 0.9,
         # times the root of 1.2 for three unequal coordinates; 5 of those.
         error = 5.0 * math.sqrt(1.2 * (1 + phi**2) / (1 - phi**2) / n)
-        found = diagnostics.autocorrelation(x)[:far]
-        assert np.abs(found - phi ** np.arange(far)).max() < error
+        correlation = diagnostics.autocorrelation(x)[:far]
+        assert np.abs(correlation - phi ** np.arange(far)).max() < error
         effective = n * (1.0 - phi) / (1.0 + phi)
         assert diagnostics.ess_vector(x) == pytest.approx(effective, rel=0.15)
         # The dissertation's measure, with another run's mean and variance, is another number.
@@ -205,17 +205,19 @@ def test_several_chains_of_vectors_have_the_sum_of_their_sizes_unless_they_stay_
     # 53 each.
     assert diagnostics.ess_vector(chains) == pytest.approx(8 * 1000 * 0.1 / 1.9, rel=0.3)
     assert diagnostics.ess_vector(chains[:1]) == diagnostics.ess_vector(chains[0])
-    one = chains[:, :, :1]
-    plain = diagnostics.ess_vector(np.concatenate([one[:, :500], one[:, 500:]]))
-    assert plain == pytest.approx(diagnostics.ess_mean(one[:, :, 0]))
+    coordinate = chains[:, :, :1]
+    plain = diagnostics.ess_vector(np.concatenate([coordinate[:, :500], coordinate[:, 500:]]))
+    assert plain == pytest.approx(diagnostics.ess_mean(coordinate[:, :, 0]))
     apart = 0.01 * chains[:, :20] + np.arange(8)[:, None, None]
     assert 4.0 < diagnostics.ess_vector(apart) < 10.0
 
 
 def test_a_summary_is_a_table() -> None:
-    made = diagnostics.summarise({"x": walk(0.0, 4, 100), "v": np.stack([walk(0.5, 4, 100)] * 2, axis=2)})
-    assert [one.name for one in made] == ["x", "v[0]", "v[1]"]
-    lines = repr(made).splitlines()
+    summaries = diagnostics.summarise(
+        {"x": walk(0.0, 4, 100), "v": np.stack([walk(0.5, 4, 100)] * 2, axis=2)}
+    )
+    assert [row.name for row in summaries] == ["x", "v[0]", "v[1]"]
+    lines = repr(summaries).splitlines()
     assert len(lines) == 4 and lines[0].split()[:2] == ["mean", "sd"]
 
 

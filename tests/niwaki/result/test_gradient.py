@@ -124,9 +124,9 @@ def test_what_has_no_gradient_is_refused_with_the_reason() -> None:
         x = nw.gaussian(0, 1)
         return f"{x:.2f}"
 
-    with pytest.raises(nw.ModelFault, match="no derivative") as found:
+    with pytest.raises(nw.ModelFault, match="no derivative") as error:
         nw.log_density(nw.run(words, seed=1).best)
-    assert "x:.2f" in found.value.render()
+    assert "x:.2f" in error.value.render()
 
     density = nw.log_density(nw.run(garden, seed=1).best)
     with pytest.raises(nw.InputError, match="coordinates"):

@@ -145,11 +145,11 @@ def test_draws_come_by_address_and_each_is_a_run() -> None:
 def test_a_seed_decides_every_bit_on_any_number_of_threads() -> None:
     # More gradients than the tape serves, so that machine code has its part.
     method = nw.hmc(draws=40, steps=50, warmup=60, chains=3)
-    one, many = (nw.run(point, method, 1.0, seed=5, threads=threads) for threads in (1, 3))
-    assert all(np.array_equal(one.draws[path], many.draws[path]) for path in one.draws)
-    assert np.array_equal(one.step_size, many.step_size)
+    single, many = (nw.run(point, method, 1.0, seed=5, threads=threads) for threads in (1, 3))
+    assert all(np.array_equal(single.draws[path], many.draws[path]) for path in single.draws)
+    assert np.array_equal(single.step_size, many.step_size)
     other = nw.run(point, method, 1.0, seed=6)
-    assert not np.array_equal(one.log_density, other.log_density)
+    assert not np.array_equal(single.log_density, other.log_density)
 
 
 def test_chains_in_lanes_draw_what_they_draw_alone() -> None:
@@ -178,7 +178,7 @@ def test_a_point_stays_near_its_curve() -> None:
 def test_what_is_discrete_is_held_fixed_with_a_warning_that_names_it() -> None:
     with pytest.warns(GradientWarning) as warned:
         result = nw.run(MODELS["fork"], few(chains=4), seed=1)
-    held, refused = (str(one.message) for one in warned)
+    held, refused = (str(warning.message) for warning in warned)
     assert "kept the value" in held and "tall`" in held and "refused for structure" in refused
     assert len(result.fixed) == 4
     assert {type(value) for fixed in result.fixed for value in fixed.values()} == {bool}
@@ -198,13 +198,13 @@ def test_a_choice_of_one_value_is_not_called_fixed() -> None:
     assert len(result.draws) == 1 and len(result[3].choices) == 2
 
 
-def messages(*given: Any, **settings: Any) -> tuple[Any, list[str]]:
+def messages(*arguments: Any, **settings: Any) -> tuple[Any, list[str]]:
     """A result and the warnings of its run. Each warning names the line that runs the model."""
     with warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always")
-        result = nw.run(*given, **settings)
-    assert all(one.category is GradientWarning and one.filename == __file__ for one in warned)
-    return result, [str(one.message) for one in warned]
+        result = nw.run(*arguments, **settings)
+    assert all(warning.category is GradientWarning and warning.filename == __file__ for warning in warned)
+    return result, [str(warning.message) for warning in warned]
 
 
 @pytest.mark.parametrize(
@@ -323,11 +323,11 @@ def failing() -> dict[str, Callable[[], Any]]:
 
 def test_errors_are_as_reviewed(golden) -> None:
     lines = []
-    for what, fails in failing().items():
-        with pytest.raises(NiwakiError) as found:
+    for title, fails in failing().items():
+        with pytest.raises(NiwakiError) as error:
             fails()
-        text = found.value.render() if hasattr(found.value, "render") else str(found.value)
-        lines.append(f"# {what}\n{text}")
+        text = error.value.render() if hasattr(error.value, "render") else str(error.value)
+        lines.append(f"# {title}\n{text}")
     golden(GOLDEN / "gradients.txt", "\n\n".join(lines) + "\n")
 
 

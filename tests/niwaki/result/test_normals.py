@@ -49,12 +49,12 @@ def nearly_opposite():
     return x
 
 
-def said(*args, **settings) -> tuple[nw.Result, str]:
+def result_and_warnings(*args, **settings) -> tuple[nw.Result, str]:
     """A result, and what was warned of."""
-    with warnings.catch_warnings(record=True) as found:
+    with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", GradientWarning)
         result = nw.run(*args, **settings)
-    return result, "\n".join(str(one.message) for one in found)
+    return result, "\n".join(str(warning.message) for warning in caught)
 
 
 #: Scale of the log weights, k, share of the largest smoothed weight.
@@ -69,8 +69,8 @@ def test_pareto_smoothing_is_that_of_arviz():
     # `arviz.psislw` 0.23.4 of the same numbers.
     scores = np.array([NormalDist().inv_cdf((i + 0.5) / 1000) for i in range(1000)])
     for scale, k, most in SMOOTHED:
-        weights, found = diagnostics.psis(scale * scores)
-        assert abs(found - k) < 1e-9
+        weights, shape = diagnostics.psis(scale * scores)
+        assert abs(shape - k) < 1e-9
         assert abs(math.exp(weights.max()) / np.exp(weights).sum() - most) < 1e-9
     assert diagnostics.psis([0.0] * 100)[1] == -math.inf
     assert diagnostics.psis([0.0, 1.0, 2.0])[1] == math.inf
@@ -95,17 +95,17 @@ def test_it_says_what_it_found():
 
 
 def test_a_tail_that_no_draw_has_reached_is_seen_by_the_slopes():
-    """Of 30 seeds 6 had a k of about 0.5 and a variance of 0.08 in place of 0.51, without a warning."""
+    """Six of 30 seeds had a k of about 0.5 and a variance of 0.08 in place of 0.51, without a warning."""
     for seed in range(30):
         with pytest.warns(GradientWarning, match="misses a part"):
-            found = nw.run(nearly_opposite, method=nw.vi(), seed=seed)
+            result = nw.run(nearly_opposite, method=nw.vi(), seed=seed)
         # Of this model the largest eigenvalue is 25 / 26.
-        assert abs(found.k_curvature - 25.0 / 26.0) < 0.05
-        assert found.log_path_bound - found.log_evidence_bound > 1.0
+        assert abs(result.k_curvature - 25.0 / 26.0) < 0.05
+        assert result.log_path_bound - result.log_evidence_bound > 1.0
 
 
 def test_it_outlives_its_process():
-    result, warned = said(pair, method=nw.vi(draws=50), seed=1)
+    result, warned = result_and_warnings(pair, method=nw.vi(draws=50), seed=1)
     # A mean field is too narrow for this pair: of 20,000 draws the evidence is 0.15 nats too low.
     assert "slopes at the draws" in warned and result.k_hat < 0.7
     copy = pickle.loads(pickle.dumps(result))
@@ -138,12 +138,12 @@ def test_progress_is_reported():
 
 
 def test_too_few_steps_are_said():
-    result, text = said(many, 20, method=nw.vi(start="run", steps=50), seed=1)
+    result, text = result_and_warnings(many, 20, method=nw.vi(start="run", steps=50), seed=1)
     assert "still grew after 50 steps" in text
     assert not result.converged and len(result.bounds[0]) >= 50
 
 
 def test_a_bound_that_grows_without_end_is_said_and_the_result_is_finite():
-    result, text = said(improper, method=nw.vi(start="run", steps=20_000), seed=1)
+    result, text = result_and_warnings(improper, method=nw.vi(start="run", steps=20_000), seed=1)
     assert ("broke off at step" in text or "still grew after 20000 steps" in text) and not result.converged
     assert np.isfinite(result.log_ratios).all() and np.isfinite(result.means[0]).all()

@@ -132,17 +132,17 @@ def test_values_that_are_equal_and_not_the_same_are_kept_apart() -> None:
 
 
 def test_every_model_of_the_gallery_grows() -> None:
-    found: list[Any] = entries()
-    grown = [one for one in found if one.target_name is not None]
-    assert {"spaceship"} <= {one.name for one in grown}
-    assert all(one.title for one in found)
-    for one in grown:
-        target = one.target()
+    models: list[Any] = entries()
+    grown = [model for model in models if model.target_name is not None]
+    assert {"spaceship"} <= {model.name for model in grown}
+    assert all(model.title for model in models)
+    for model in grown:
+        target = model.target()
         assert target is not None
         coarse = float(max(target.size)) / 20
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # a run of a few particles may become impossible
-            result = nw.grow(one.model, target, particles=100, voxel=coarse, seed=1, runs=4)
+            result = nw.grow(model.model, target, particles=100, voxel=coarse, seed=1, runs=4)
         assert result.best.primitives > 0
     assert entry("targets") is None and entry("no such") is None
 

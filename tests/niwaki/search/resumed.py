@@ -99,43 +99,43 @@ POWERS = kernels.tempering(
 )
 
 
-def improve(**given: Any) -> Any:
+def improve(**settings: Any) -> Any:
     """The usual search."""
-    return nw.grow(gnarly_tree, bent_tube(), 0.2, voxel=0.4, rounds=25, seed=5, threads=1, **given)
+    return nw.grow(gnarly_tree, bent_tube(), 0.2, voxel=0.4, rounds=25, seed=5, threads=1, **settings)
 
 
-def several(**given: Any) -> Any:
+def several(**settings: Any) -> Any:
     """Results that differ."""
-    return nw.grow(gnarly_tree, bent_tube(), 0.2, voxel=0.5, rounds=4, diverse=3, seed=5, **given)
+    return nw.grow(gnarly_tree, bent_tube(), 0.2, voxel=0.5, rounds=4, diverse=3, seed=5, **settings)
 
 
-def runs(**given: Any) -> Any:
+def runs(**settings: Any) -> Any:
     """Several runs of a population, each polished."""
     method = nw.smc(40)
     polish = nw.mh(4000, kernel=kernels.mixture(kernels.prior(), kernels.drift()))
     return nw.grow(
-        gnarly_tree, bent_tube(), 0.2, voxel=0.5, method=method, polish=polish, runs=4, seed=5, **given
+        gnarly_tree, bent_tube(), 0.2, voxel=0.5, method=method, polish=polish, runs=4, seed=5, **settings
     )
 
 
-def chain(**given: Any) -> Any:
+def chain(**settings: Any) -> Any:
     """Chains by many kernels."""
     method = nw.mh(kernel=ALL, steps=20_000, warmup=8_000, chains=2, keep=50)
-    return nw.run(mixture, DATA, method=method, seed=3, **given)
+    return nw.run(mixture, DATA, method=method, seed=3, **settings)
 
 
-def ladder(**given: Any) -> Any:
+def ladder(**settings: Any) -> Any:
     """Chains at several powers."""
     method = nw.mh(kernel=POWERS, steps=150_000, warmup=3_000, chains=2, keep=50)
-    return nw.run(mixture, DATA, method=method, seed=3, **given)
+    return nw.run(mixture, DATA, method=method, seed=3, **settings)
 
 
-def outside(**given: Any) -> Any:
+def outside(**settings: Any) -> Any:
     """Proposals with an invalid distribution, which are counted."""
-    return nw.run(invalid, DATA, method=nw.mh(steps=1_000_000, chains=2, keep=50), seed=3, **given)
+    return nw.run(invalid, DATA, method=nw.mh(steps=1_000_000, chains=2, keep=50), seed=3, **settings)
 
 
-def training(**given: Any) -> Any:
+def training(**settings: Any) -> Any:
     """A guide."""
     return nw.train_guide(
         path,
@@ -145,11 +145,11 @@ def training(**given: Any) -> Any:
         searches=(nw.smc(60), nw.smc(20, resampling="tempered")),
         training=Training(steps=600, hidden=(8, 8)),
         seed=4,
-        **given,
+        **settings,
     )
 
 
-def bound(**given: Any) -> Any:
+def bound(**settings: Any) -> Any:
     """A guide by the evidence bound."""
     return nw.train_guide(
         path,
@@ -157,28 +157,32 @@ def bound(**given: Any) -> Any:
         lambda side: nw.match_drawing(page(side), WINDOW),
         training=Training.bound(steps=600, hidden=(8, 8)),
         seed=4,
-        **given,
+        **settings,
     )
 
 
 CASES: dict[str, Callable[..., Any]] = {
-    one.__name__: one for one in (improve, several, runs, chain, ladder, outside, training, bound)
+    case.__name__: case for case in (improve, several, runs, chain, ladder, outside, training, bound)
 }
 
 
-def digest(found: Any) -> str:
+def digest(result: Any) -> str:
     """SHA-256 of all that the result is, but for its times."""
-    if isinstance(found, nw.Guide):
-        return hashlib.sha256(found.data).hexdigest()
-    told: list[Any] = [found.search.hash, found.invalid]
-    states = [*found.samples]
-    if isinstance(found.info, ImproveInfo):
-        told += [found.info.attempts, found.info.rounds, found.info.searches]
-    if isinstance(found.info, MhInfo):
-        states += [*found.bests, *found.last]
-        told += [found.acceptance, found.visits, [(one.step, one.made) for one in found.trajectories]]
-    told += [(one.choices, one.log_score, one.log_prior, one.value) for one in states]
-    return hashlib.sha256(repr(told).encode()).hexdigest()
+    if isinstance(result, nw.Guide):
+        return hashlib.sha256(result.data).hexdigest()
+    facts: list[Any] = [result.search.hash, result.invalid]
+    states = [*result.samples]
+    if isinstance(result.info, ImproveInfo):
+        facts += [result.info.attempts, result.info.rounds, result.info.searches]
+    if isinstance(result.info, MhInfo):
+        states += [*result.bests, *result.last]
+        facts += [
+            result.acceptance,
+            result.visits,
+            [(state.step, state.made) for state in result.trajectories],
+        ]
+    facts += [(state.choices, state.log_score, state.log_prior, state.value) for state in states]
+    return hashlib.sha256(repr(facts).encode()).hexdigest()
 
 
 def main(case: str, place: str) -> None:

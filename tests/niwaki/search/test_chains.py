@@ -167,8 +167,8 @@ def test_chains_start_from_given_choices() -> None:
 
 
 def test_samples_are_bounded() -> None:
-    made = compiled.task(GARDEN, (), {})
-    chains = nw._engine.Chains(made, nw.mh(thin=1).text()[0], 1, room=100)
+    task = compiled.task(GARDEN, (), {})
+    chains = nw._engine.Chains(task, nw.mh(thin=1).text()[0], 1, room=100)
     chains.advance(2000)
     kept = chains.samples()[0]
     assert len(kept) * 8 <= 100
@@ -270,8 +270,8 @@ def test_the_shell_fills_a_target_of_the_gallery(tmp_path: Path) -> None:
     (tmp_path / "chains.py").write_text(TEXT)
     words = ["sample", f"{tmp_path / 'chains.py'}:tower", "--target", "gallery:bent-tube", "--voxel", "1"]
     more = ["--steps", "200", "--chains", "1", "--seed", "1", "--no-picture", "-o", str(tmp_path / "out")]
-    found = CliRunner().invoke(app, [*words, *more])
-    assert found.exit_code == 0, found.output
+    outcome = CliRunner().invoke(app, [*words, *more])
+    assert outcome.exit_code == 0, outcome.output
     written = json.loads((tmp_path / "out" / "run.json").read_text())
     assert written["search"]["score"][-1]["given"]["target"]["file"] == "gallery:bent_tube"
     again = CliRunner().invoke(
@@ -286,8 +286,8 @@ def test_the_shell_samples_and_explains(tmp_path: Path) -> None:
     (tmp_path / "chains.py").write_text(TEXT)
     place = f"{tmp_path / 'chains.py'}:tower"
     words = ["sample", place, "--steps", "300", "--chains", "2", "--seed", "1", "-o", str(tmp_path / "out")]
-    found = CliRunner().invoke(app, [*words, "--kernel", "cycle(prior(), drift())"])
-    assert found.exit_code == 0, found.output
+    outcome = CliRunner().invoke(app, [*words, "--kernel", "cycle(prior(), drift())"])
+    assert outcome.exit_code == 0, outcome.output
     written = {file.name for file in (tmp_path / "out").iterdir()}
     assert written == {"run.json", "samples.csv", "best.glb", "best.png", "sheet.png"}
     again = CliRunner().invoke(
@@ -376,11 +376,11 @@ def test_a_block_alone_reaches_all_values_of_discrete_choices():
         warnings.simplefilter("error", SearchWarning)
         result = nw.run(discrete, nw.mh(steps=80_000, kernel=k.block(), chains=4, keep=4000), seed=1)
     for chain in result.by_chain:
-        told = [str(sample.value) for sample in chain]
+        values = [str(sample.value) for sample in chain]
         for value, probability in exact.items():
             # 4000 samples, 20 proposals apart: six standard errors of independent ones, in 128 comparisons.
-            limit = 6.0 * math.sqrt(probability * (1.0 - probability) / len(told))
-            assert abs(told.count(value) / len(told) - probability) < limit, value
+            limit = 6.0 * math.sqrt(probability * (1.0 - probability) / len(values))
+            assert abs(values.count(value) / len(values) - probability) < limit, value
 
 
 @nw.model

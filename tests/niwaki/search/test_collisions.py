@@ -24,9 +24,9 @@ def sometimes():
 
 
 def test_a_run_that_breaks_a_constraint_is_found_among_those_that_do_not() -> None:
-    found = example(Search(sometimes, score=no_self_intersection(), seed=3))
-    assert found is not None
-    scene, parts = found
+    collision = example(Search(sometimes, score=no_self_intersection(), seed=3))
+    assert collision is not None
+    scene, parts = collision
     assert parts == ["one", "two"] and len(scene) == 2
     # By hand: the middles of two unit boxes that overlap are less than 1 apart.
     assert scene.parts[1].shapes[0].vertices()[:, 0].min() < 0.5

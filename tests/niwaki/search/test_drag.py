@@ -15,7 +15,7 @@ from niwaki.errors import InputError
 from niwaki.gallery import entries
 from niwaki.search.drag.source import NEAR
 
-SPACE = [one.name for one in entries() if one.target_name is not None or one.draws is not None]
+SPACE = [entry.name for entry in entries() if entry.target_name is not None or entry.draws is not None]
 
 
 def place(positions: Any, part: int, shape: int, shares: tuple[float, float, float]) -> Any:
@@ -27,11 +27,15 @@ def place(positions: Any, part: int, shape: int, shares: tuple[float, float, flo
 @pytest.mark.parametrize("name", SPACE)
 def test_derivatives_of_positions_are_central_differences(name: str) -> None:
     """On every model of the gallery that emits: a point of some parts, by some of the choices that move them."""
-    entry = next(one for one in entries() if one.name == name)
-    sample = next(one for one in (nw.run(entry.model, seed=s).best for s in range(20)) if one.primitives)
+    entry = next(candidate for candidate in entries() if candidate.name == name)
+    sample = next(
+        candidate
+        for candidate in (nw.run(entry.model, seed=s).best for s in range(20))
+        if candidate.primitives
+    )
     task = sample.search.task
     choices = sample._trace.choices
-    placer, free = task.placer(sample._run), {one.address for one in choices}
+    placer, free = task.placer(sample._run), {candidate.address for candidate in choices}
     positions = placer.positions({}, free)
     ranges, shares = positions.ranges(), (0.3, -0.2, 0.1)
     size = max(np.ptp([corner for shape in part.shapes for corner in shape.aabb()]) for part in sample.parts)
@@ -46,8 +50,8 @@ def test_derivatives_of_positions_are_central_differences(name: str) -> None:
             address, x = positions.movables[k][0], ranges[k, 0]
             steps = [2 * h, h, -h, -2 * h]
             at = [place(placer.positions({address: x + by}, free), part, 0, shares) for by in steps]
-            found = (-at[0] + 8 * at[1] - 8 * at[2] + at[3]) / (12 * h)
-            np.testing.assert_allclose(slopes[:, k], found, rtol=1e-5, atol=1e-7 * size / ranges[k, 3])
+            difference = (-at[0] + 8 * at[1] - 8 * at[2] + at[3]) / (12 * h)
+            np.testing.assert_allclose(slopes[:, k], difference, rtol=1e-5, atol=1e-7 * size / ranges[k, 3])
             looked += 1
     assert looked or all(positions.slopes(n, 0, shares) is None for n in range(len(positions.parts)))
 
@@ -67,7 +71,7 @@ def test_derivatives_of_an_arm_follow_from_its_angle_and_length() -> None:
     sample = nw.run(arm, seed=3).best
     angle, reach = sample.choices["angle"], sample.choices["reach"]
     positions = sample.search.task.placer(sample._run).positions(
-        {}, {one.address for one in sample._trace.choices}
+        {}, {choice.address for choice in sample._trace.choices}
     )
     c, s = np.cos(angle), np.sin(angle)
     (hand,) = [n for n, (address, _) in enumerate(positions.parts) if address == "hand"]
@@ -120,9 +124,9 @@ def test_held_choices_stay_to_the_bit_and_are_the_reason_where_all_are_held() ->
     sample = nw.run(post, seed=1).best
     a, b, deep = (sample.choices[name] for name in ("a", "b", "deep"))
     for n in range(20):
-        found = sample.drag("top", (a + b + 0.1 * n, 0.5, deep), hold=["b"])
-        assert found.best is not None
-        assert found.best.sample.choices["b"] == b
+        drag = sample.drag("top", (a + b + 0.1 * n, 0.5, deep), hold=["b"])
+        assert drag.best is not None
+        assert drag.best.sample.choices["b"] == b
     held = sample.drag("top", (a + b + 1.0, 0.5, deep), hold=["*"])
     assert held.best is None
     assert held.reason == "no free choice moves `top`: all 3 choices that move it are held (`a`, `b`, `deep`)"
@@ -130,7 +134,7 @@ def test_held_choices_stay_to_the_bit_and_are_the_reason_where_all_are_held() ->
     expected = sample.drag("top", (a + b + 0.1, 0.5, deep), hold=["b"]).answers
     for hold in ("b", {"b": b}, sample.held("b")):
         answers = sample.drag("top", (a + b + 0.1, 0.5, deep), hold=hold).answers
-        assert [one.changed for one in answers] == [one.changed for one in expected]
+        assert [answer.changed for answer in answers] == [answer.changed for answer in expected]
     with pytest.raises(InputError, match="hold"):
         sample.drag("top", (a, 0.5, deep), hold={"b": b + 1.0})
     # A search's own hold holds as well.
@@ -144,9 +148,9 @@ def test_a_grabbed_point_turns_with_its_part() -> None:
     angle, reach = sample.choices["angle"], sample.choices["reach"]
     grab = (reach * np.cos(angle) / 2, reach * np.sin(angle) / 2, 0.0)
     to = (1.2 * np.cos(0.2), 1.2 * np.sin(0.2), 0.0)
-    found = sample.drag("bone", to, grab=grab).answers[0]
-    assert found.sample.choices["angle"] == pytest.approx(0.2, abs=0.01)
-    assert found.sample.choices["reach"] == pytest.approx(2.4, abs=0.02)
+    answer = sample.drag("bone", to, grab=grab).answers[0]
+    assert answer.sample.choices["angle"] == pytest.approx(0.2, abs=0.01)
+    assert answer.sample.choices["reach"] == pytest.approx(2.4, abs=0.02)
 
 
 def test_depth_does_not_count_along_a_direction() -> None:
@@ -167,7 +171,9 @@ def pile():
 
 
 def test_structure_changes_where_that_is_the_only_way() -> None:
-    sample = next(one for one in (nw.run(pile, seed=s).best for s in range(50)) if one.choices["count"] == 3)
+    sample = next(
+        best for best in (nw.run(pile, seed=s).best for s in range(50)) if best.choices["count"] == 3
+    )
     drag = sample.drag("i[2]/emit", (0.1, 3.5, 0.0))
     assert drag.answers[0].kind == "structure"
     assert drag.answers[0].sample.choices["count"] == 4
@@ -191,7 +197,7 @@ def fork():
 
 
 def test_a_branch_that_changes_under_the_move_is_run_again() -> None:
-    sample = next(one for one in (nw.run(fork, seed=s).best for s in range(20)) if "z" in one.choices)
+    sample = next(best for best in (nw.run(fork, seed=s).best for s in range(20)) if "z" in best.choices)
     drag = sample.drag("emit", (-1.0, 0.5, 0.0))
     assert drag.best is not None
     assert ("z" in drag.best.sample.choices) == (drag.best.sample.choices["x"] > 0)
@@ -221,7 +227,7 @@ def test_bad_drags_are_refused() -> None:
 def test_a_mean_that_moves_takes_its_choice_along() -> None:
     sample = nw.run(arm, 2.0, seed=3).best
     positions = sample.search.task.placer(sample._run).positions({}, set(), arguments={0: 2.0})
-    assert [one[0] for one in positions.movables] == [0]
+    assert [movable[0] for movable in positions.movables] == [0]
     angle, reach = sample.choices["angle"], sample.choices["reach"]
     np.testing.assert_allclose(
         positions.slopes(1, 0, (0, 0, 0))[:, 0], [np.cos(angle), np.sin(angle), 0.0], atol=1e-12

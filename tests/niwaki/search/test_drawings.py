@@ -61,19 +61,19 @@ def test_chains_are_the_same_by_each_strategy_and_as_scored_afresh(name: str) ->
     states: dict[str, Any] = {}
     for strategy in ("c3", "resume", "cache", "rerun"):
         chain = nw.run(vines, nw.mh(**method, strategy=strategy), score=score, seed=3)
-        states[strategy] = [(one.log_score, one.similarity, one.choices) for one in chain]
+        states[strategy] = [(state.log_score, state.similarity, state.choices) for state in chain]
         for sample in chain:
             sketch = _engine.Sketch(score.specs)
             for part in sample.scene:
                 sketch.add(list(part.shapes))
             assert sketch.log_score() == sample.log_score
-    assert all(found == states["c3"] for found in states.values())
+    assert all(values == states["c3"] for values in states.values())
     assert len({score for score, _, _ in states["c3"]}) > 3
 
 
 def test_a_drawing_is_followed_and_no_intersection_is_asked_of_it() -> None:
-    found = nw.grow(vines, None, 0.0, -0.6, score=SCORES["match_drawing"](), particles=40, seed=1)
-    assert [one.function for one in found.search.score.asks] == ["match_drawing"]
-    assert found.best.similarity is not None and found.best.similarity > 0.2
-    again = nw.Search.of_data(found.search.data()).run()
-    assert again.best.log_score == found.best.log_score
+    result = nw.grow(vines, None, 0.0, -0.6, score=SCORES["match_drawing"](), particles=40, seed=1)
+    assert [sketch.function for sketch in result.search.score.asks] == ["match_drawing"]
+    assert result.best.similarity is not None and result.best.similarity > 0.2
+    again = nw.Search.of_data(result.search.data()).run()
+    assert again.best.log_score == result.best.log_score

@@ -35,11 +35,11 @@ def test_the_bounds_hold_and_close() -> None:
     truth, evidence = exact()
     widths = []
     for runs in (3, 20, 100, 1000):
-        found = nw.run(waves, method=nw.enumerate_all(max_runs=runs, likely=True))
-        low, high = found.info.bounds(True)
+        result = nw.run(waves, method=nw.enumerate_all(max_runs=runs, likely=True))
+        low, high = result.info.bounds(True)
         assert low <= truth <= high
-        assert math.exp(found.log_evidence) <= evidence * (1 + 1e-9)
-        assert math.exp(found.log_evidence) + math.exp(found.log_unseen) >= evidence * (1 - 1e-9)
+        assert math.exp(result.log_evidence) <= evidence * (1 + 1e-9)
+        assert math.exp(result.log_evidence) + math.exp(result.log_unseen) >= evidence * (1 - 1e-9)
         widths.append(high - low)
     assert widths == sorted(widths, reverse=True)
     assert widths[-1] < 1e-6
@@ -76,8 +76,8 @@ def test_a_rest_that_adds_to_the_score_is_said() -> None:
 
     truth = math.exp(4.0) / 6.0 / (math.e - 1 / 6 + math.exp(4.0) / 6.0)
     for rest, holds in ((0.0, False), (4.0, True)):
-        found = nw.run(late, method=nw.enumerate_all(max_runs=2, likely=True, rest=rest))
-        low, high = found.info.bounds(3)
+        result = nw.run(late, method=nw.enumerate_all(max_runs=2, likely=True, rest=rest))
+        low, high = result.info.bounds(3)
         assert (low <= truth <= high) == holds
 
 

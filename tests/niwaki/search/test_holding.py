@@ -59,18 +59,18 @@ def leg_of(number: int) -> str:
 
 def shares(result: nw.Result) -> dict[str, float]:
     """The weighted shares of the values."""
-    found: Counter[str] = Counter()
+    counts: Counter[str] = Counter()
     for value, share in result.distribution().items():
-        found[str(value)] += share
-    return dict(found)
+        counts[str(value)] += share
+    return dict(counts)
 
 
-def furthest(found: dict[str, float], exact: dict[str, float], effective: float) -> float:
+def furthest(shares: dict[str, float], exact: dict[str, float], effective: float) -> float:
     """The largest |z| of the shares that are not rare; no value may be impossible."""
-    assert set(found) <= set(exact)
+    assert set(shares) <= set(exact)
     common = {value: p for value, p in exact.items() if p * effective > 20}
     assert len(common) > 2
-    return max(abs(found.get(v, 0.0) - p) / math.sqrt(p * (1 - p) / effective) for v, p in common.items())
+    return max(abs(shares.get(v, 0.0) - p) / math.sqrt(p * (1 - p) / effective) for v, p in common.items())
 
 
 def test_the_law_is_that_of_the_free_program_with_those_values() -> None:
@@ -121,9 +121,9 @@ def test_continuous_choices_follow_the_law_given_a_held_one(method: Any) -> None
 
 def test_a_search_for_the_best_and_its_polish_keep_what_is_held() -> None:
     hold = {f"{leg_of(1)}/length": 1, f"{leg_of(0)}/length": 2}
-    found = nw.run(legs, nw.improve(rounds=5), hold=hold, seed=1)
+    improved = nw.run(legs, nw.improve(rounds=5), hold=hold, seed=1)
     polished = nw.run(legs, nw.smc(particles=50), hold=hold, seed=1).polish(nw.mh(500))
-    for result in (found, polished):
+    for result in (improved, polished):
         assert hold.items() <= result.best.choices.items()
 
 
@@ -131,7 +131,7 @@ def test_a_lock_is_part_of_a_search() -> None:
     search = nw.Search(legs, method=nw.smc(particles=20), seed=4, hold={f"{leg_of(0)}/length": 1})
     again = nw.Search.of_json(search.json())
     assert again.hash == search.hash != nw.Search(legs, method=nw.smc(particles=20), seed=4).hash
-    values = [[one.value for one in own.run()] for own in (search, again)]
+    values = [[sample.value for sample in locked.run()] for locked in (search, again)]
     assert values[0] == values[1]
 
 
@@ -181,13 +181,13 @@ def test_a_part_grown_again_follows_the_law_given_the_rest(power: float) -> None
     assert isinstance(bound.info, EnumerationInfo)
     sharper = {}
     for value, log in bound.info.table:
-        score = -0.4 * value[0] - 0.3 * sum(one[0] for one in value[1])
+        score = -0.4 * value[0] - 0.3 * sum(sampled[0] for sampled in value[1])
         sharper[str(value)] = math.exp(log + (power - 1) * score)
     exact = {value: p / sum(sharper.values()) for value, p in sharper.items()}
     again = sample.regrow(part, particles=20_000, power=power, seed=1)
     # Particles that were resampled together are fewer independent ones; a third is far below what is left of them.
     assert furthest(shares(again), exact, 20_000 / 3) < 5
-    assert all(rest.items() <= one.choices.items() for one in again)
+    assert all(rest.items() <= sampled.choices.items() for sampled in again)
 
 
 def test_growing_a_part_again_changes_nothing_else() -> None:
@@ -203,7 +203,7 @@ def test_growing_a_part_again_changes_nothing_else() -> None:
         assert {p: v for p, v in sample.choices.items() if not p.startswith(part + "/")} == outside
     assert len({str(sample.choices) for sample in again}) > 1
     twice = grown.regrow(part, particles=40, seed=8)
-    assert [one.log_score for one in twice] == [one.log_score for one in again]
+    assert [run.log_score for run in twice] == [run.log_score for run in again]
     assert again.weights.sum() == pytest.approx(1.0)
     for pattern, code in (("wnigs", "no-part"), ("**wings", "many-parts")):
         with pytest.raises(InputError) as caught:
@@ -253,15 +253,15 @@ MODELS = ("spaceship", "gnarly_tree", "toy_blocks", "downtown", "coral")
 
 def hold_at_random(name: str, seed: int) -> str:
     """Holds a part or some choices of a run, and searches: what came of it."""
-    rng, one = random.Random(seed), entry(name)
-    assert one is not None
-    target = one.target()
+    rng, model = random.Random(seed), entry(name)
+    assert model is not None
+    target = model.target()
     score = (
-        nw.no_self_intersection() * nw.match_volume(target, one.voxel)
+        nw.no_self_intersection() * nw.match_volume(target, model.voxel)
         if target
         else nw.no_self_intersection()
     )
-    free = nw.run(one.model, seed=seed).best
+    free = nw.run(model.model, seed=seed).best
     paths = list(free.choices)
     calls = sorted({path.rpartition("/")[0] for path in paths} - {""})
     pool = calls if calls and rng.random() < 0.5 else paths
@@ -269,11 +269,11 @@ def hold_at_random(name: str, seed: int) -> str:
     method = rng.choice([nw.smc(particles=20), nw.smc(particles=20, order="depth-first"), nw.mh(50, thin=10)])
     start = free.choices if isinstance(method, nw.methods.Mh) else None
     try:
-        found = nw.run(one.model, method, score=score, seed=seed, hold=hold, choices=start)
+        result = nw.run(model.model, method, score=score, seed=seed, hold=hold, choices=start)
     except InputError as error:
         assert error.code in ("everything-impossible", "no-start"), str(error)
         return error.code
-    alive = [sample for sample in found if sample.log_weight > -math.inf and sample.log_score > -math.inf]
+    alive = [sample for sample in result if sample.log_weight > -math.inf and sample.log_score > -math.inf]
     for sample in alive[:6]:
         assert {path: sample.choices.get(path) for path in hold} == hold, f"{name}, seed {seed}"
     return "held" if alive else "everything-impossible"

@@ -75,7 +75,7 @@ def test_one_runs_at_a_time(method: Any) -> None:
     several = nw.run(model, method=method, seed=1, threads=4)
     assert inside.most == 1
     alone = nw.run(model, method=method, seed=1, threads=1)
-    assert [one.log_weight for one in several] == [one.log_weight for one in alone]
+    assert [sample.log_weight for sample in several] == [sample.log_weight for sample in alone]
 
 
 def test_one_runs_at_a_time_in_several_searches() -> None:
@@ -127,7 +127,7 @@ def test_one_that_searches_lends_its_turn(method: Any) -> None:
     model = _searching(method)
     several = nw.run(model, nw.importance(16), seed=1, threads=4)
     alone = nw.run(model, nw.importance(16), seed=1, threads=1)
-    assert [one.log_weight for one in several] == [one.log_weight for one in alone]
+    assert [sample.log_weight for sample in several] == [sample.log_weight for sample in alone]
 
 
 def test_an_exception_inside_a_search_inside_gives_the_turn_back() -> None:

@@ -32,8 +32,8 @@ def grown(seed: int = 4, **settings):
     """A ship, with few particles."""
     ship = entry("spaceship")
     assert ship is not None
-    own = {"particles": 30, "regrow": 6, "rounds": 12}
-    method = nw.improve(**own | {k: v for k, v in settings.items() if k in ("rounds", "seconds", "power")})
+    counts = {"particles": 30, "regrow": 6, "rounds": 12}
+    method = nw.improve(**counts | {k: v for k, v in settings.items() if k in ("rounds", "seconds", "power")})
     rest = {k: v for k, v in settings.items() if k in ("threads", "progress")}
     return nw.grow(ship.model, ship.target(), voxel=0.5, seed=seed, method=method, **rest)
 
@@ -42,19 +42,19 @@ def test_the_best_never_falls_and_is_the_result() -> None:
     result = grown()
     rounds = result.info.rounds
     assert [rounds[0].kind, len(rounds), len(result)] == ["population", 13, 1]
-    bests = [one.best for one in rounds]
+    bests = [line.best for line in rounds]
     assert bests == sorted(bests)
     assert bests[-1] > bests[0] + 1.0
     assert result.best.log_score == bests[-1]
-    assert all(one.work > 0 for one in rounds)
-    assert {one.kind for one in rounds} == {"population", "regrow", "regrow more", "move"}
+    assert all(line.work > 0 for line in rounds)
+    assert {line.kind for line in rounds} == {"population", "regrow", "regrow more", "move"}
     trace = result.best._trace.run
     assert (trace.log_score, trace.primitives) == (result.best.log_score, result.best.primitives)
 
 
 def test_a_seed_and_a_number_of_rounds_give_the_same_bits_on_any_number_of_threads() -> None:
     seen = [grown(threads=threads) for threads in (1, 2)]
-    assert len({str(sorted(one.best.choices.items(), key=str)) for one in seen}) == 1
+    assert len({str(sorted(result.best.choices.items(), key=str)) for result in seen}) == 1
     assert seen[0].info == seen[1].info
     assert grown(seed=5).best.choices != seen[0].best.choices
 
@@ -136,23 +136,23 @@ def test_what_dies_as_usual_is_tried_in_other_forms_and_told() -> None:
 
 
 def test_a_dead_search_names_the_parts_and_what_was_tried() -> None:
-    with pytest.raises(nw.InputError) as found:
+    with pytest.raises(nw.InputError) as error:
         nw.grow(boxes, path_target(), 3, 0.5, seed=1)
-    text = str(found.value)
+    text = str(error.value)
     assert "`boxes/emit` runs into another part of this line in 100 of 100" in text
     assert "emit(box((apart * i" in text and "^^^^" in text
-    assert len(found.value.values["attempts"].split(";")) == 6 and "depth-first" in text
+    assert len(error.value.values["attempts"].split(";")) == 6 and "depth-first" in text
 
 
 def test_two_places_are_blamed_where_two_parts_collide() -> None:
-    with pytest.raises(nw.InputError) as found:
+    with pytest.raises(nw.InputError) as error:
         nw.grow(garden_path, path_target(), particles=100, seed=1)
-    lines = str(found.value).splitlines()
+    lines = str(error.value).splitlines()
     first, second = (
         next(k for k, line in enumerate(lines) if text in line) for text in ("7.5 - i", "0.5 * width")
     )
     marks = {lines[first + 1].strip("| ")[0], lines[second + 1].strip("| ")[0]}
-    assert marks == {"^", "-"} and "runs into" in str(found.value)
+    assert marks == {"^", "-"} and "runs into" in str(error.value)
 
 
 @pytest.mark.filterwarnings("ignore:the target is far from where the model begins")

@@ -42,8 +42,8 @@ OUTER = INNER / (INNER + (1.0 - INNER) * math.exp(-1.0))
 def test_the_outer_answer_is_known(method) -> None:  # type: ignore[no-untyped-def]
     result = nw.run(twice, method=method, seed=1)
     pairs = [(sample.value[0], weight) for sample, weight in zip(result, result.weights, strict=True)]
-    share = sum(weight for found, weight in pairs if found)
-    error = math.sqrt(sum((weight * (found - share)) ** 2 for found, weight in pairs))
+    share = sum(weight for value, weight in pairs if value)
+    error = math.sqrt(sum((weight * (value - share)) ** 2 for value, weight in pairs))
     assert abs(share - OUTER) < 4.9 * error
     assert abs(INNER - OUTER) > 4.9 * error  # what leaving the outer factor out would give
     again = nw.run(twice, method=method, seed=1, threads=1)
@@ -58,7 +58,7 @@ def test_a_chain_moves_the_seed() -> None:
     }
     values = [sample.value for sample in chains["c3"]]
     assert len({sample.choices["found"] for sample in list(chains["c3"])[::100]}) > 5
-    share = sum(found for found, _ in values) / len(values)
+    share = sum(value for value, _ in values) / len(values)
     assert abs(share - OUTER) < 4.9 * math.sqrt(OUTER * (1.0 - OUTER) / len(values))
     for result in chains.values():
         assert [sample.value for sample in result] == values

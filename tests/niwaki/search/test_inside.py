@@ -43,9 +43,9 @@ def test_a_setting_is_honoured(name: str) -> None:
     def outer():
         return infer(inner, method)
 
-    found = [sample.value for sample in nw.run(outer, nw.forward(600), seed=5, threads=1)]
-    error = 4.9 * math.sqrt(EXACT * (1 - EXACT) / len(found))
-    assert abs(sum(found) / len(found) - EXACT) < error
+    values = [sample.value for sample in nw.run(outer, nw.forward(600), seed=5, threads=1)]
+    error = 4.9 * math.sqrt(EXACT * (1 - EXACT) / len(values))
+    assert abs(sum(values) / len(values) - EXACT) < error
 
 
 def test_a_kernel_that_moves_nothing_shows_that_kernels_are_read() -> None:

@@ -173,16 +173,16 @@ def test_invalid_runs_have_no_weight_and_are_counted_by_place(model: Any, method
     name, text = PLACES[model.name]
     # A chain may start from a valid run and never propose another one.
     assert len(result.invalid) == 1, result.invalid
-    (found,) = result.invalid
-    assert isinstance(found, Invalid) and found.name == name and found.runs > 0
-    assert found.file == __file__
-    assert text in linecache.getline(__file__, found.line)
-    assert found.call == CALLS[name]
-    assert found.reason and str(found).startswith(
-        f"`{name}` at test_invalid.py:{found.line}, {found.runs} run"
+    (place,) = result.invalid
+    assert isinstance(place, Invalid) and place.name == name and place.runs > 0
+    assert place.file == __file__
+    assert text in linecache.getline(__file__, place.line)
+    assert place.call == CALLS[name]
+    assert place.reason and str(place).startswith(
+        f"`{name}` at test_invalid.py:{place.line}, {place.runs} run"
     )
     assert {value for value, p in result.distribution().items() if p > 0} <= set(exact())
-    assert f"{found.runs} invalid" in repr(result)
+    assert f"{place.runs} invalid" in repr(result)
     if result.log_evidence is not None:
         assert "with invalid runs as zero" in repr(result)
 
@@ -199,27 +199,29 @@ def test_shares_are_those_of_the_valid_runs(model: Any) -> None:
     assert weighted.log_evidence is not None
     error = math.sqrt((square - evidence**2) / 4000)
     assert abs(math.exp(weighted.log_evidence) - evidence) < 5 * error
-    (found,) = weighted.invalid
-    assert abs(found.runs - 1600) < 5 * math.sqrt(4000 * 0.4 * 0.6)
+    (place,) = weighted.invalid
+    assert abs(place.runs - 1600) < 5 * math.sqrt(4000 * 0.4 * 0.6)
 
 
-@pytest.mark.parametrize("method", [one for one in METHODS if "EnumerateAll" not in repr(one)], ids=repr)
+@pytest.mark.parametrize(
+    "method", [sample for sample in METHODS if "EnumerateAll" not in repr(sample)], ids=repr
+)
 @pytest.mark.parametrize("model", [by_shape, by_host, in_future], ids=lambda model: model.name)
 def test_threads_change_nothing(model: Any, method: Any) -> None:
     alone = nw.run(model, method=method, seed=5, threads=1)
     for threads in (2, 3):
         several = nw.run(model, method=method, seed=5, threads=threads)
         assert several.invalid == alone.invalid
-        assert [one.choices for one in several if one.has_ended] == [
-            one.choices for one in alone if one.has_ended
+        assert [sample.choices for sample in several if sample.has_ended] == [
+            sample.choices for sample in alone if sample.has_ended
         ]
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
 def test_runs_from_the_prior_are_those_that_are_valid(model: Any) -> None:
     result = nw.run(model, method=nw.forward(500), seed=1)
-    (found,) = result.invalid
-    assert len(result) + found.runs == 500
+    (place,) = result.invalid
+    assert len(result) + place.runs == 500
     counts = Counter(sample.value[0] for sample in result)
     assert set(counts) == {0, 1, 2}
     for n in range(3):
@@ -238,11 +240,11 @@ def test_a_held_choice_may_be_invalid() -> None:
 
 def test_enumeration_leaves_invalid_runs_out() -> None:
     for model in (by_parameter, by_shape, by_host, in_future, in_loop):
-        found = nw.run(model, method=nw.enumerate_all())
-        shares = {value: p for value, p in found.distribution().items() if p > 0}
+        result = nw.run(model, method=nw.enumerate_all())
+        shares = {value: p for value, p in result.distribution().items() if p > 0}
         assert shares.keys() == exact().keys()
         assert all(math.isclose(shares[value], p) for value, p in exact().items())
-        assert found.invalid[0].runs == (
+        assert result.invalid[0].runs == (
             2 if model in (by_shape, by_host, in_future, in_loop, by_parameter) else 0
         )
 
@@ -274,8 +276,8 @@ TRAJECTORIES: list[Any] = [
 @pytest.mark.parametrize("model", [border, plate], ids=lambda model: model.name)
 def test_trajectories_end_at_the_border(model: Any, method: Any) -> None:
     result: Any = nw.run(model, method=method, seed=1)
-    (found,) = result.invalid
-    assert (found.name, found.line - model.function.__code__.co_firstlineno) == (
+    (place,) = result.invalid
+    assert (place.name, place.line - model.function.__code__.co_firstlineno) == (
         ("uniform", 3) if model is border else ("box", 3)
     )
     assert result.divergences.impossible > 0
@@ -293,10 +295,10 @@ def test_chains_go_on_counting() -> None:
 
 def test_a_chain_starts_from_a_valid_run_and_counts_the_others() -> None:
     result: Any = nw.run(by_host, method=nw.mh(steps=1, chains=40), seed=1)
-    (found,) = result.invalid
+    (place,) = result.invalid
     # Before each start as many as a geometric number with success 3/5; of the proposals, half are to `n`.
     mean, variance = 2 / 3 + 0.5 * 0.4, 0.4 / 0.36 + 0.2 * 0.8
-    assert abs(found.runs - 40 * mean) < 5 * math.sqrt(40 * variance)
+    assert abs(place.runs - 40 * mean) < 5 * math.sqrt(40 * variance)
     with pytest.raises(nw.ModelFault, match="no entry 4"):
         nw.run(by_host, method=nw.mh(steps=10), seed=1, choices={"n": 4})
 
@@ -313,16 +315,16 @@ def test_a_search_of_several_runs_counts_all_of_them() -> None:
 def test_a_batch_keeps_the_counts() -> None:
     search = nw.Search(by_host, method=nw.importance(200), seed=1)
     (stored,) = batches.batch(search, seeds=[1], processes=1)
-    (found,) = stored.result.invalid
+    (place,) = stored.result.invalid
     (whole,) = search.run().invalid
-    assert (found.name, found.line, found.runs, found.call) == (
+    assert (place.name, place.line, place.runs, place.call) == (
         whole.name,
         whole.line,
         whole.runs,
         whole.call,
     )
     # Nothing of a machine is stored: neither the folder of a file nor the text of an exception.
-    assert (found.file, found.reason) == ("test_invalid.py", "")
+    assert (place.file, place.reason) == ("test_invalid.py", "")
 
 
 @nw.model

@@ -1,5 +1,5 @@
-"""Claim: a search names an observation that has a probability in some runs and a density in others, with both lines,
-and accuses no model that observes different things by different families in the same manner in all runs.
+"""Claim: a search names an observation that has a probability in some runs and a density in others, with both lines.
+It accuses no model that observes different values by different families in the same manner in all runs.
 """
 
 from __future__ import annotations
@@ -45,11 +45,11 @@ def held():
     return x
 
 
-def said(program: Any, method: Any, **settings: Any) -> list[str]:
+def kind_warnings(program: Any, method: Any, **settings: Any) -> list[str]:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         nw.run(program, method, seed=1, **settings)
-    texts = [str(one.message) for one in caught if issubclass(one.category, SearchWarning)]
+    texts = [str(warning.message) for warning in caught if issubclass(warning.category, SearchWarning)]
     return [text for text in texts if "probability of a single value" in text]
 
 
@@ -70,7 +70,7 @@ METHODS = {
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("program", [grade, by_branch, by_element], ids=lambda program: program.name)
 def test_who_mixes_is_told(program: Any, method: str) -> None:
-    (text,) = said(program, METHODS[method])
+    (text,) = kind_warnings(program, METHODS[method])
     assert "test_kinds.py:" in text
     if program is by_branch:
         for part in ("Poisson", "Gaussian(2"):
@@ -78,12 +78,12 @@ def test_who_mixes_is_told(program: Any, method: str) -> None:
 
 
 def test_a_held_choice_that_mixes_is_told() -> None:
-    assert len(said(held, nw.importance(50), hold={"x": 0.0})) == 1
-    assert said(held, nw.importance(50)) == []
+    assert len(kind_warnings(held, nw.importance(50), hold={"x": 0.0})) == 1
+    assert kind_warnings(held, nw.importance(50)) == []
 
 
 def test_a_forward_run_weighs_nothing() -> None:
-    assert said(grade, nw.forward(3)) == []
+    assert kind_warnings(grade, nw.forward(3)) == []
 
 
 COLUMNS = [("count", 3), ("length", 0.5), ("truth", True)]
@@ -120,7 +120,7 @@ def alike():
 
 @pytest.mark.parametrize("program", [columns, twice, alike], ids=lambda program: program.name)
 def test_who_does_not_mix_is_told_nothing(program: Any) -> None:
-    assert said(program, nw.importance(20)) == []
+    assert kind_warnings(program, nw.importance(20)) == []
 
 
 def test_no_model_of_the_gallery_is_accused() -> None:

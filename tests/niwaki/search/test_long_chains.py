@@ -39,18 +39,18 @@ def resident():
 def goes_on(name, stops, proposals, watch):
     """Go on from stop to stop, and compare at each; `watch` is given the chain after each."""
     model, args, kernel, score = subjects()[name]
-    found = nw.run(
+    chain = nw.run(
         model, *args, method=nw.mh(steps=1, keep=0, kernel=kernel), score=score, seed=11, threads=1
     )
     scores = set()
     for _ in range(stops):
-        found.more(proposals)
-        now = found.last[0]
+        chain.more(proposals)
+        now = chain.last[0]
         fresh = nw.run(model, *args, choices=now.choices, score=score).best
         assert (now.log_score, now.log_prior) == (fresh.log_score, fresh.log_prior)
-        assert len(now.choices) == found.counters["choices"]
+        assert len(now.choices) == chain.counters["choices"]
         scores.add(now.log_score)
-        watch(found)
+        watch(chain)
     assert len(scores) > stops // 2, "the chain hardly moved"
 
 
@@ -71,10 +71,10 @@ def far_away():
 @pytest.mark.parametrize("strategy", ["rerun", "resume", "cache", "c3"])
 def test_totals_are_exact_of_terms_of_any_size(strategy):
     method = nw.mh(20_000, warmup=8_000, kernel=kernels.drift(0.5), chains=4, strategy=strategy)
-    found = nw.run(far_away, method=method, seed=3)
-    for one in [*found.last, found.best]:
-        fresh = nw.run(far_away, choices=one.choices).best
-        assert (one.log_score, one.log_prior) == (fresh.log_score, fresh.log_prior)
+    chains = nw.run(far_away, method=method, seed=3)
+    for state in [*chains.last, chains.best]:
+        fresh = nw.run(far_away, choices=state.choices).best
+        assert (state.log_score, state.log_prior) == (fresh.log_score, fresh.log_prior)
 
 
 @pytest.mark.soak
@@ -83,9 +83,9 @@ def test_totals_are_exact_of_terms_of_any_size(strategy):
 def test_ten_million_proposals(name):
     held, room = [], []
 
-    def watch(found):
+    def watch(chain):
         held.append(resident())
-        room.append(found.counters["bytes"])
+        room.append(chain.counters["bytes"])
 
     goes_on(name, 20, 500_000, watch)
     # A million proposals settle the allocator; the nine after them may not add a byte to each.

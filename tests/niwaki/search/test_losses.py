@@ -22,13 +22,15 @@ def searched(limit=1.0, **settings):
 
 
 def test_each_particle_that_died_is_counted_once_by_what_it_broke():
-    found = searched(0.75, particles=300, ess=0.0)
+    result = searched(0.75, particles=300, ess=0.0)
     # Without resampling those that died are in the result.
-    dead = sum(one.log_score == -float("inf") for one in found)
-    losses = found.info.losses
+    dead = sum(sample.log_score == -float("inf") for sample in result)
+    losses = result.info.losses
     assert losses.total == dead > 0
     causes = dict(losses.causes)
-    assert len(causes) == 2 and all(one == "no_self_intersection" or "condition" in one for one in causes)
+    assert len(causes) == 2 and all(
+        sample == "no_self_intersection" or "condition" in sample for sample in causes
+    )
     # 150 of 300 and then 37.5, each within five standard deviations: false alarms once in a million.
     assert (
         abs(causes["no_self_intersection"] - 150) < 44
@@ -57,16 +59,16 @@ def test_of_many_some_are_looked_at_evenly():
 
 
 def test_losses_of_several_populations_are_summed():
-    one, other = (searched(0.5, particles=n).info.losses for n in (60, 40))
-    both = Losses.of_several([one, other])
-    assert both.total == one.total + other.total and both.looked_at == one.looked_at + other.looked_at
-    assert both.blame[0].runs == one.blame[0].runs + other.blame[0].runs
-    assert Losses.of_several([one, Losses()]) == one
+    first, second = (searched(0.5, particles=n).info.losses for n in (60, 40))
+    both = Losses.of_several([first, second])
+    assert both.total == first.total + second.total and both.looked_at == first.looked_at + second.looked_at
+    assert both.blame[0].runs == first.blame[0].runs + second.blame[0].runs
+    assert Losses.of_several([first, Losses()]) == first
 
 
 def test_nothing_is_said_where_nothing_is_lost():
-    found = nw.run(crossing, 1.0, method=nw.smc(20), seed=1)
-    assert found.info.losses == Losses() and str(found.info.losses) == ""
+    result = nw.run(crossing, 1.0, method=nw.smc(20), seed=1)
+    assert result.info.losses == Losses() and str(result.info.losses) == ""
 
 
 def test_they_are_stored_with_the_statistics():
@@ -76,15 +78,15 @@ def test_they_are_stored_with_the_statistics():
 
 def test_a_search_for_the_best_has_them_too():
     settings = {"method": nw.improve(rounds=2), "score": nw.no_self_intersection(), "seed": 1}
-    found = nw.run(crossing, 1.0, **settings)
-    assert found.info.losses.blame[0].part.name == "cable"
-    assert found.info == nw.run(crossing, 1.0, **settings, threads=1).info
-    assert restored_info(stored_info(found.info)) == found.info
+    result = nw.run(crossing, 1.0, **settings)
+    assert result.info.losses.blame[0].part.name == "cable"
+    assert result.info == nw.run(crossing, 1.0, **settings, threads=1).info
+    assert restored_info(stored_info(result.info)) == result.info
 
 
 @pytest.mark.parametrize("threads", [1, 2])
 def test_threads_do_not_matter(threads):
     method = nw.smc(400)
     score = nw.no_self_intersection()
-    found = nw.run(crossing, 0.5, method=method, score=score, seed=2, threads=threads)
-    assert found.info.losses == nw.run(crossing, 0.5, method=method, score=score, seed=2).info.losses
+    result = nw.run(crossing, 0.5, method=method, score=score, seed=2, threads=threads)
+    assert result.info.losses == nw.run(crossing, 0.5, method=method, score=score, seed=2).info.losses

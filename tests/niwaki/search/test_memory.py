@@ -228,10 +228,10 @@ def child(name: str, threads: int) -> None:
     before = peak()
     try:
         nw.run(model, seed=1, method=method, max_memory=BOUND, threads=threads)
-        found = "no fault"
+        message = "no fault"
     except nw.ModelFault as fault:
-        found = str(fault)
-    print(json.dumps({"found": found, "grown": peak() - before}))
+        message = str(fault)
+    print(json.dumps({"found": message, "grown": peak() - before}))
 
 
 @nw.model
@@ -253,10 +253,10 @@ def outcome(name: str, threads: int = 1) -> dict[str, object]:
 
 @pytest.mark.parametrize("name", CASES)
 def test_the_limit_is_what_a_model_takes(name):
-    found = outcome(name)
-    assert "memory-budget" in found["found"] and "64 MB" in found["found"], found["found"][:500]
-    assert "^" in found["found"]
-    assert found["grown"] <= 1.3 * BOUND, f"{found['grown'] / BOUND:.2f} of the limit"
+    report = outcome(name)
+    assert "memory-budget" in report["found"] and "64 MB" in report["found"], report["found"][:500]
+    assert "^" in report["found"]
+    assert report["grown"] <= 1.3 * BOUND, f"{report['grown'] / BOUND:.2f} of the limit"
 
 
 @pytest.mark.parametrize("name", ["particles", "particles_of_calls"])
@@ -285,8 +285,8 @@ def test_a_long_chain_gives_back_what_its_moves_made():
         nw.factor(-x * x)
         return sum([x + k for k in range(2000)])
 
-    found = nw.run(rebuilt, method=nw.mh(steps=2000), seed=1, max_memory=4 << 20, max_steps=10**9)
-    assert len(found) > 0
+    result = nw.run(rebuilt, method=nw.mh(steps=2000), seed=1, max_memory=4 << 20, max_steps=10**9)
+    assert len(result) > 0
 
 
 def test_the_runs_of_an_inner_search_take_steps_of_the_outer_one():
@@ -302,12 +302,12 @@ def test_the_runs_of_an_inner_search_take_steps_of_the_outer_one():
         return nw.infer(inner, nw.importance(1000))
 
     assert len(nw.run(outer, nw.forward(1), seed=1, max_steps=200_000)) == 1
-    found = []
+    messages = []
     for threads in (1, 3):
         with pytest.raises(nw.ModelFault, match="step-budget") as met:
             nw.run(outer, nw.forward(1), seed=1, max_steps=20_000, threads=threads)
-        found.append(str(met.value))
-    assert found[0] == found[1] and "with the runs of `infer` of" in found[0]
+        messages.append(str(met.value))
+    assert messages[0] == messages[1] and "with the runs of `infer` of" in messages[0]
 
 
 def test_a_value_that_does_not_fit_is_refused_before_it_is_made():

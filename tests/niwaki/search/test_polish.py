@@ -28,32 +28,32 @@ def searched(seed: int = 1) -> nw.Result:
 
 
 def test_a_chain_starts_where_the_search_ended() -> None:
-    found = searched()
-    one = found.polish(nw.mh(1, keep=0))
+    result = searched()
+    step = result.polish(nw.mh(1, keep=0))
     # One proposal changes one coin at most, so that the present state differs in one place at most.
-    before, now = found.best.choices, one.last[0].choices
+    before, now = result.best.choices, step.last[0].choices
     assert sum(before[address] != now[address] for address in before) <= 1
-    assert one.best.log_score >= found.best.log_score
+    assert step.best.log_score >= result.best.log_score
     # Mutant: a chain from a new start differs in many.
-    anew = nw.run(row, method=nw.mh(1, keep=0), seed=found.seed).last[0].choices
+    anew = nw.run(row, method=nw.mh(1, keep=0), seed=result.seed).last[0].choices
     assert sum(before[address] != anew[address] for address in before) > 5
 
 
 def test_it_is_the_chain_of_those_choices() -> None:
-    found = searched()
+    result = searched()
     method = nw.mh(200, kernel=kernels.neighbour(), keep=10)
-    polished = found.polish(method, seed=7)
-    by_hand = nw.run(row, method=method, choices=found.best.choices, seed=7)
+    polished = result.polish(method, seed=7)
+    by_hand = nw.run(row, method=method, choices=result.best.choices, seed=7)
     assert [s.choices for s in polished] == [s.choices for s in by_hand]
-    assert polished.best.log_score == by_hand.best.log_score > found.best.log_score
+    assert polished.best.log_score == by_hand.best.log_score > result.best.log_score
     # A result can be polished again.
     assert polished.polish(method).best.log_score >= polished.best.log_score
 
 
 def test_its_time_is_that_of_both() -> None:
-    found = searched()
-    polished = found.polish(nw.mh(50))
-    assert polished.cpu_seconds >= found.cpu_seconds and polished.seconds > found.seconds
+    result = searched()
+    polished = result.polish(nw.mh(50))
+    assert polished.cpu_seconds >= result.cpu_seconds and polished.seconds > result.seconds
     assert polished.best.seconds == polished.seconds
 
 

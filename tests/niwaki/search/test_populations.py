@@ -76,12 +76,12 @@ def m():
 )
 def test_each_follows_the_exact_answer(method: Any) -> None:
     """Fixed seed; 4.5 standard errors of 2500 independent draws: false alarm 7e-6 for each of 27 shares."""
-    found = nw.run(COINS, method=method, seed=11, threads=1)
-    shares = found.distribution()
+    result = nw.run(COINS, method=method, seed=11, threads=1)
+    shares = result.distribution()
     for value, share in exact().items():
         assert abs(shares.get(value, 0.0) - share) < 4.5 * math.sqrt(share * (1 - share) / 2500)
-    if found.log_evidence is not None:
-        assert found.log_evidence == pytest.approx(math.log(0.3 * math.exp(-0.5) + 0.42), abs=0.05)
+    if result.log_evidence is not None:
+        assert result.log_evidence == pytest.approx(math.log(0.3 * math.exp(-0.5) + 0.42), abs=0.05)
 
 
 def test_a_search_by_time_is_repeated_by_its_plan() -> None:
@@ -98,21 +98,21 @@ def shared(a: nw.Sample, b: nw.Sample) -> float:
 
 
 def test_results_that_differ_share_at_most_half() -> None:
-    found = nw.run(WALL, method=nw.smc(particles=60, diverse=4), seed=2)
-    assert len(found) == 4 and found.info.plan == (60,) * 4
-    assert all(shared(a, b) <= 0.5 for a in found for b in found if a is not b)
-    assert found.unique_models == 4
-    scores = [sample.log_score for sample in found]
+    result = nw.run(WALL, method=nw.smc(particles=60, diverse=4), seed=2)
+    assert len(result) == 4 and result.info.plan == (60,) * 4
+    assert all(shared(a, b) <= 0.5 for a in result for b in result if a is not b)
+    assert result.unique_models == 4
+    scores = [sample.log_score for sample in result]
     assert scores == sorted(scores, reverse=True)
     whole = nw.run(WALL, method=nw.smc(particles=60, populations=4), seed=2)
-    assert found.best.log_score == whole.best.log_score
+    assert result.best.log_score == whole.best.log_score
 
 
 def test_a_chain_of_populations_counts_those_that_died() -> None:
-    """Of 40 populations of one particle 9 in 10 die; of all seeds 2e-5 have fewer than 27, and 0.015 have 40."""
-    found = nw.run(RARE, method=nw.pimh(particles=1, sweeps=39), seed=3)
-    assert 27 <= found.info.died < 40 and found.info.tries == 39 and len(found) <= 39
-    assert found.log_evidence == pytest.approx(math.log((40 - found.info.died) / 40))
+    """Populations of one particle, 40 in all: 9 in 10 die; of all seeds 2e-5 have fewer than 27, and 0.015 have 40."""
+    result = nw.run(RARE, method=nw.pimh(particles=1, sweeps=39), seed=3)
+    assert 27 <= result.info.died < 40 and result.info.tries == 39 and len(result) <= 39
+    assert result.log_evidence == pytest.approx(math.log((40 - result.info.died) / 40))
     with pytest.raises(InputError, match="everything-impossible"):
         nw.run(NEVER, method=nw.pimh(particles=3, sweeps=5), seed=3)
 
@@ -121,15 +121,15 @@ def test_a_chain_of_populations_counts_those_that_died() -> None:
     "method", [nw.importance(300), nw.enumerate_all(), nw.smc(10), nw.pimh(10, 2)], ids=repr
 )
 def test_nothing_that_is_possible_is_an_error(method: Any) -> None:
-    with pytest.raises(InputError, match="everything-impossible") as found:
+    with pytest.raises(InputError, match="everything-impossible") as error:
         nw.run(NEVER, method=method, seed=1)
-    assert "`condition` at line 7" in str(found.value)
+    assert "`condition` at line 7" in str(error.value)
 
 
 def test_particle_gibbs_starts_from_a_possible_population() -> None:
-    """Of two particles 0.81 die; ten populations all die for 12 seeds of 100."""
-    found = nw.run(RARE, method=nw.particle_gibbs(particles=2, sweeps=39), seed=2)
-    assert 0 < found.info.died < 40 and len(found) == 39
+    """Populations of two particles die with probability 0.81; ten populations all die for 12 seeds of 100."""
+    result = nw.run(RARE, method=nw.particle_gibbs(particles=2, sweeps=39), seed=2)
+    assert 0 < result.info.died < 40 and len(result) == 39
     with pytest.raises(InputError, match="`condition` at line"):
         nw.run(NEVER, method=nw.particle_gibbs(particles=3, sweeps=5), seed=3)
 
@@ -147,28 +147,28 @@ def test_enumeration_counts_impossible_runs() -> None:
 
 
 def test_weights_of_what_is_impossible_are_an_error() -> None:
-    found = nw.run(RARE, method=nw.importance(200), seed=1)
-    assert set(found.distribution()) == {True} and found.weights.sum() == pytest.approx(1.0)
-    for sample in found:
+    result = nw.run(RARE, method=nw.importance(200), seed=1)
+    assert set(result.distribution()) == {True} and result.weights.sum() == pytest.approx(1.0)
+    for sample in result:
         sample.log_weight = -math.inf
-    for ask in (lambda: found.weights, found.distribution):
+    for ask in (lambda: result.weights, result.distribution):
         with pytest.raises(InputError, match="everything-impossible"):
             ask()
 
 
 def test_fewer_results_that_differ_give_a_warning() -> None:
     with pytest.warns(SearchWarning, match="of 30 results in 1 population differ;"):
-        found = nw.run(COINS, method=nw.smc(particles=50, populations=1, diverse=30), seed=1)
-    assert 1 <= len(found) < 30
+        result = nw.run(COINS, method=nw.smc(particles=50, populations=1, diverse=30), seed=1)
+    assert 1 <= len(result) < 30
 
 
 def test_unique_models_agree_with_a_count_by_readable_addresses() -> None:
     for particles in (1, 30):
-        found = nw.run(WALL, method=nw.smc(particles=particles, ess=0.5), seed=9)
-        alone = [a for a in found if all(shared(a, b) <= 0.5 for b in found if a is not b)]
-        assert found.unique_models == len(alone)
+        result = nw.run(WALL, method=nw.smc(particles=particles, ess=0.5), seed=9)
+        alone = [a for a in result if all(shared(a, b) <= 0.5 for b in result if a is not b)]
+        assert result.unique_models == len(alone)
     assert nw.run(WALL, method=nw.forward(5), seed=1).unique_models == 5
-    assert found.info.ancestors is not None and 1 <= found.info.ancestors <= 30
+    assert result.info.ancestors is not None and 1 <= result.info.ancestors <= 30
 
 
 def test_grow_gives_what_differs() -> None:
@@ -179,20 +179,20 @@ def test_grow_gives_what_differs() -> None:
     settings: dict[str, Any] = {"voxel": 0.5, "seed": 5, "rule": "surface"}
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        found = nw.grow(ship.model, target, particles=60, diverse=3, **settings)
-    assert len(found) == found.unique_models == 3
+        result = nw.grow(ship.model, target, particles=60, diverse=3, **settings)
+    assert len(result) == result.unique_models == 3
     timed = nw.grow(ship.model, target, seconds=0.3, weights="ratio", **settings)
     again = nw.grow(ship.model, target, particles=timed.info.plan, **settings)
     assert timed.best.log_score == again.best.log_score
 
 
 def test_a_chain_counts_its_moves_and_starts_from_given_choices() -> None:
-    found = nw.run(WALL, method=nw.particle_gibbs(particles=6, sweeps=20), seed=3)
-    assert len(found) == len(found.info.renewed) == 20
+    result = nw.run(WALL, method=nw.particle_gibbs(particles=6, sweeps=20), seed=3)
+    assert len(result) == len(result.info.renewed) == 20
     assert (
-        found.info.tries is not None
-        and found.info.moves is not None
-        and 0 < found.info.moves <= found.info.tries
+        result.info.tries is not None
+        and result.info.moves is not None
+        and 0 < result.info.moves <= result.info.tries
     )
     kept = nw.run(WALL, method=nw.particle_gibbs(particles=6, sweeps=5, ancestors=False), seed=3)
     assert (kept.info.tries, kept.info.moves) == (0, 0)
@@ -201,15 +201,15 @@ def test_a_chain_counts_its_moves_and_starts_from_given_choices() -> None:
     near = nw.run(WALL, method=method, choices=start.choices, seed=1)
     assert Counter(near.best.choices) and any(near.best.choices[k] == v for k, v in start.choices.items())
     again = nw.run(WALL, method=nw.particle_gibbs(particles=6, sweeps=20), seed=3)
-    assert [s.choices for s in again] == [s.choices for s in found]
+    assert [s.choices for s in again] == [s.choices for s in result]
 
 
 def test_powers_are_reported() -> None:
-    found = nw.run(WALL, method=nw.smc(particles=50, power=4.0, anneal=0.5), seed=1)
-    assert len(found.info.powers) == found.info.barriers
-    assert list(found.info.powers) == sorted(found.info.powers)
-    held = nw.run(WALL, method=nw.smc(particles=50, power=4.0, anneal=found.info.powers), seed=1)
-    assert held.best.log_score == found.best.log_score
+    result = nw.run(WALL, method=nw.smc(particles=50, power=4.0, anneal=0.5), seed=1)
+    assert len(result.info.powers) == result.info.barriers
+    assert list(result.info.powers) == sorted(result.info.powers)
+    held = nw.run(WALL, method=nw.smc(particles=50, power=4.0, anneal=result.info.powers), seed=1)
+    assert held.best.log_score == result.best.log_score
 
 
 def test_messages_of_populations(golden: Any) -> None:
@@ -233,5 +233,5 @@ def test_messages_of_populations(golden: Any) -> None:
             COINS, method=nw.particle_gibbs(), choices=nw.run(COINS, seed=NEITHER).best.choices, seed=1
         ),
     }
-    found = [f"## {name}\n\n{refused(ask)}\n" for name, ask in settings.items()]
-    golden(GOLDEN / "populations.txt", "\n".join(found))
+    sections = [f"## {name}\n\n{refused(ask)}\n" for name, ask in settings.items()]
+    golden(GOLDEN / "populations.txt", "\n".join(sections))

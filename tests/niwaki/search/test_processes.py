@@ -76,7 +76,7 @@ def forked(child):
 
 
 def ran(folder: Path, text: str, threads: int) -> str:
-    """What a program prints; its children have an alarm, and it has a limit of time itself."""
+    """Return the output of a program; its children have an alarm, and it has a limit of time itself."""
     file = folder / "program.py"
     file.write_text(MODELS + text)
     done = subprocess.run(

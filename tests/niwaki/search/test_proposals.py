@@ -56,8 +56,8 @@ LOG_EVIDENCE = -0.5 * SEEN @ SOLVED - 0.5 * math.log(np.linalg.det(COVARIANCE)) 
 MEAN = np.array([0.9, 1.06]) @ SOLVED
 
 
-def z(found: list[float], expected: float) -> float:
-    return float((np.mean(found) - expected) / (np.std(found) / math.sqrt(len(found))))
+def z(values: list[float], expected: float) -> float:
+    return float((np.mean(values) - expected) / (np.std(values) / math.sqrt(len(values))))
 
 
 @pytest.mark.parametrize(
@@ -77,12 +77,14 @@ def test_the_evidence_is_unbiased(method: Method) -> None:
 @pytest.mark.parametrize("ancestors", [True, False])
 def test_particle_gibbs_and_chains_follow_the_posterior(ancestors: bool) -> None:
     gibbs = nw.particle_gibbs(4, 40, ancestors=ancestors, proposal=NEAR)
-    found = [np.mean([one.value for one in nw.run(drift, gibbs, seed=seed)][10:]) for seed in range(150)]
-    assert abs(z(found, MEAN)) < LIMIT
+    means = [
+        np.mean([sample.value for sample in nw.run(drift, gibbs, seed=seed)][10:]) for seed in range(150)
+    ]
+    assert abs(z(means, MEAN)) < LIMIT
     both = k.cycle(NEAR, k.on("y", k.proposal(lambda x, old: Gaussian(0.5 * (x + old), 0.4))))
     chain = nw.mh(600, kernel=both, warmup=100)
-    found = [np.mean([one.value for one in nw.run(drift, chain, seed=seed)]) for seed in range(60)]
-    assert abs(z(found, MEAN)) < LIMIT
+    means = [np.mean([sample.value for sample in nw.run(drift, chain, seed=seed)]) for seed in range(60)]
+    assert abs(z(means, MEAN)) < LIMIT
 
 
 @model
@@ -102,9 +104,9 @@ def tree(p: float) -> bool:
 
 @pytest.mark.parametrize("order", ["stochastic", "depth-first"])
 def test_futures_have_parameters_in_scope(order: str) -> None:
-    own = k.on("**tall", k.proposal(lambda p: Bernoulli(0.9 - p)))
+    proposal = k.on("**tall", k.proposal(lambda p: Bernoulli(0.9 - p)))
     exact = nw.run(grove, nw.importance(40_000), seed=9).log_evidence
-    runs = [nw.run(grove, nw.smc(10, order=order, proposal=own), seed=seed) for seed in range(400)]
+    runs = [nw.run(grove, nw.smc(10, order=order, proposal=proposal), seed=seed) for seed in range(400)]
     # The exact answer is itself one of 40,000 runs: its error is a tenth of that of the mean.
     assert abs(z([math.exp(run.log_evidence - exact) for run in runs], 1.0)) < LIMIT
 
@@ -128,9 +130,9 @@ def walked(n: int = 3) -> int:
 
 
 def test_a_variable_that_only_the_proposal_reads_is_handed_from_iteration_to_iteration() -> None:
-    own = k.on("**step", k.proposal(lambda last: Bernoulli(0.3 + 0.4 * last)))
+    proposal = k.on("**step", k.proposal(lambda last: Bernoulli(0.3 + 0.4 * last)))
     exact = nw.run(walked, nw.enumerate_all()).log_evidence
-    runs = [nw.run(walked, nw.importance(50, proposal=own), seed=seed) for seed in range(100)]
+    runs = [nw.run(walked, nw.importance(50, proposal=proposal), seed=seed) for seed in range(100)]
     assert abs(z([math.exp(run.log_evidence - exact) for run in runs], 1.0)) < LIMIT
 
 
@@ -173,7 +175,7 @@ def test_a_search_with_a_proposal_is_a_value() -> None:
     search = nw.Search(drift, method=nw.smc(30, proposal=NEAR), seed=4)
     again = nw.Search.of_json(json.dumps(json.loads(search.json("inside"))))
     assert again.hash == search.hash
-    assert [one.log_weight for one in again.run()] == [one.log_weight for one in search.run()]
+    assert [sample.log_weight for sample in again.run()] == [sample.log_weight for sample in search.run()]
     other = nw.Search(
         drift, method=nw.smc(30, proposal=k.on("x", k.proposal(lambda: Gaussian(0, 2)))), seed=4
     )

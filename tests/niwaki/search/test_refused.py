@@ -58,8 +58,8 @@ def message(name: str) -> str:
 
 
 def test_messages_of_the_engine(golden: Any) -> None:
-    found = {name: message(name) for name in SETTINGS}
-    for name, text in found.items():
+    messages = {name: message(name) for name in SETTINGS}
+    for name, text in messages.items():
         assert not re.search(r"``|  $|: $|cannot be $|to $|  or", text, re.M), (name, text)
         assert re.search(" = (found|why): .*\n = help: ", text), (name, text)
-    golden(GOLDEN, "".join(f"## {name}\n\n{text}\n\n" for name, text in found.items()))
+    golden(GOLDEN, "".join(f"## {name}\n\n{text}\n\n" for name, text in messages.items()))

@@ -36,11 +36,11 @@ def test_moved_particles_agree_with_their_choices(score, at):
 
 def test_the_same_seed_gives_the_same_result_on_any_number_of_threads(score):
     method = niwaki.smc(40, rejuvenate=KERNEL, moves=2, at=5)
-    one, two = (
+    single, double = (
         niwaki.run(gnarly_tree, method=method, score=score, seed=5, threads=threads) for threads in (1, 2)
     )
-    assert [s.log_score for s in one] == [s.log_score for s in two]
-    assert one.info == two.info
+    assert [s.log_score for s in single] == [s.log_score for s in double]
+    assert single.info == double.info
 
 
 def test_moves_make_copies_different(score):
@@ -72,9 +72,9 @@ def test_final_chains_take_the_place_of_the_final_set(score):
 def test_grow_moves_too(score):
     settings = {"score": score, "particles": 20, "power": 4.0, "seed": 2, "threads": 1}
     moves = {"rejuvenate": kernels.prior(), "moves": 30, "at": "end", "draws": 5}
-    found = niwaki.grow(gnarly_tree, **settings, **moves)
-    assert len(found) == 1
-    assert found.best.log_score >= niwaki.grow(gnarly_tree, **settings).best.log_score
+    result = niwaki.grow(gnarly_tree, **settings, **moves)
+    assert len(result) == 1
+    assert result.best.log_score >= niwaki.grow(gnarly_tree, **settings).best.log_score
 
 
 @pytest.mark.parametrize(

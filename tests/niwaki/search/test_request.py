@@ -53,15 +53,15 @@ def written(folder: Path, text: str = MODEL) -> nw.Search:
     return nw.Search(find(f"{folder / 'pile.py'}:pile").model, (0.1,), score, method, seed=7)
 
 
-def found(result: nw.Result) -> list[tuple[float, float, float]]:
-    return [(one.log_score, one.log_prior, one.log_weight) for one in result]
+def scores(result: nw.Result) -> list[tuple[float, float, float]]:
+    return [(sample.log_score, sample.log_prior, sample.log_weight) for sample in result]
 
 
 def test_a_search_goes_through_json_to_another_process_and_folder(tmp_path, monkeypatch):
     search = written(tmp_path / "here")
-    wanted = found(search.run())
+    expected = scores(search.run())
     text = search.json()
-    assert found(nw.Search.of_json(text).run()) == wanted
+    assert scores(nw.Search.of_json(text).run()) == expected
     assert nw.Search.of_json(text).hash == search.hash
     # The model's own file is not needed, nor the folder that the search was made in.
     (tmp_path / "here" / "pile.py").unlink()
@@ -80,14 +80,14 @@ def test_a_search_goes_through_json_to_another_process_and_folder(tmp_path, monk
         check=True,
     )
     digest, samples = there.stdout.splitlines()
-    assert digest == search.hash and samples == repr(wanted)
+    assert digest == search.hash and samples == repr(expected)
 
 
 def test_the_meshes_can_travel_inside(tmp_path):
     search = written(tmp_path / "here")
     inside, named = search.json("inside"), search.json()
     (tmp_path / "here" / "cube.obj").unlink()
-    assert found(nw.Search.of_json(inside).run()) == found(search.run())
+    assert scores(nw.Search.of_json(inside).run()) == scores(search.run())
     with pytest.raises(nw.NiwakiError, match="no file"):
         nw.Search.of_json(named)
 
@@ -126,7 +126,7 @@ def test_whatever_decides_the_result_changes_the_hash(change, tmp_path):
     assert change(tmp_path / "there").hash != written(tmp_path / "here").hash
 
 
-def changed(search: nw.Search, **given) -> nw.Search:
+def changed(search: nw.Search, **settings) -> nw.Search:
     names = (
         "model",
         "args",
@@ -140,15 +140,16 @@ def changed(search: nw.Search, **given) -> nw.Search:
         "max_steps",
         "max_memory",
     )
-    return nw.Search(**{**{name: getattr(search, name) for name in names}, **given})
+    return nw.Search(**{**{name: getattr(search, name) for name in names}, **settings})
 
 
 def test_the_bytes_of_a_target_and_an_image_change_the_hash(tmp_path):
-    one, two = np.zeros((8, 8), bool), np.zeros((8, 8), bool)
-    one[2:5, 2:5] = two[2:5, 2:6] = True
+    square, wide = np.zeros((8, 8), bool), np.zeros((8, 8), bool)
+    square[2:5, 2:5] = wide[2:5, 2:6] = True
     camera = nw.Camera.perspective((0, 2, 20), look_at=(0, 2, 0))
     hashes = {
-        nw.Search(PILE, score=nw.match_image(image, camera), seed=1).hash for image in (one, two, one.copy())
+        nw.Search(PILE, score=nw.match_image(image, camera), seed=1).hash
+        for image in (square, wide, square.copy())
     }
     assert len(hashes) == 2
     search = written(tmp_path / "here")
@@ -201,7 +202,7 @@ def test_every_method_and_sketch_goes_through_json():
         nw.forward(2),
         nw.improve(rounds=3, seconds=2),
     ]
-    assert {type(one).NAME for one in methods} == set(Method.KNOWN)
+    assert {type(kind).NAME for kind in methods} == set(Method.KNOWN)
     for method in methods:
         polish = nw.mh(20) if getattr(method, "diverse", None) is None else None
         search = nw.Search(PILE, (0.5,), score, method, seed=2, polish=polish)
@@ -228,8 +229,8 @@ def test_values_of_all_kinds_go_through_json():
         text = json.dumps(Writer()(value), allow_nan=False)
         again = Reader()(json.loads(text))
         assert repr(again) == repr(value) or np.array_equal(again, value), text
-    nothing = json.loads(json.dumps(Writer()(float("nan"))))
-    assert Reader()(nothing) != Reader()(nothing)
+    nan = json.loads(json.dumps(Writer()(float("nan"))))
+    assert Reader()(nan) != Reader()(nan)
     frame = Reader()(Writer()(Frame((0, 0, 0), (0, 1, 0), (1, 0, 0), 0.5)))
     assert tuple(frame) == ((0, 0, 0), (0, 1, 0), (1, 0, 0), 0.5)
 
@@ -272,10 +273,10 @@ def test_a_pickled_result_saves_the_same_file(tmp_path):
     result = search.run()
     (tmp_path / "here" / "pile.py").unlink()
     again = pickle.loads(pickle.dumps(result))
-    assert found(again) == found(result) and again.info.plan == result.info.plan
+    assert scores(again) == scores(result) and again.info.plan == result.info.plan
     assert again.log_evidence == result.log_evidence
-    for one, other in zip(result, again, strict=True):
-        assert other.value == one.value and other.choices == one.choices
+    for sample, other in zip(result, again, strict=True):
+        assert other.value == sample.value and other.choices == sample.choices
     result.export(tmp_path / "one.glb")
     again.export(tmp_path / "two.glb")
     assert (tmp_path / "one.glb").read_bytes() == (tmp_path / "two.glb").read_bytes()
@@ -306,9 +307,9 @@ def test_results_of_chains_are_pickled_with_all_statistics():
         seed=2,
     )
     again = pickle.loads(pickle.dumps(chains))
-    assert found(again) == found(chains) and again.best.choices == chains.best.choices
+    assert scores(again) == scores(chains) and again.best.choices == chains.best.choices
     assert again.acceptance == chains.acceptance and again.counters == chains.counters
-    assert [one.value for one in again.last] == [one.value for one in chains.last]
+    assert [sample.value for sample in again.last] == [sample.value for sample in chains.last]
     assert again.trajectories == chains.trajectories and again.method == chains.method
     with pytest.raises(nw.InputError, match="cannot continue the chains"):
         again.more(10)
@@ -316,7 +317,7 @@ def test_results_of_chains_are_pickled_with_all_statistics():
         drawn = nw.run(line, nw.nuts(20, warmup=30, chains=2), seed=2)
     again = pickle.loads(pickle.dumps(drawn))
     assert all(np.array_equal(again.draws[path], drawn.draws[path]) for path in drawn.draws)
-    assert again.best.choices == drawn.best.choices and found(again[:3]) == found(drawn[:3])
+    assert again.best.choices == drawn.best.choices and scores(again[:3]) == scores(drawn[:3])
     assert [len(chain) for chain in again.by_chain] == [20, 20]
 
 

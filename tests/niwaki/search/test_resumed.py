@@ -62,23 +62,23 @@ def broken_off(case: str, place: Path, times: int, seed: int) -> tuple[Any, int]
 
 @pytest.mark.parametrize("case", list(resumed.CASES))
 def test_what_goes_on_gives_the_same_bytes(case: str, tmp_path: Path) -> None:
-    found, ended = broken_off(case, tmp_path / "checkpoint", 5, 1)
+    result, ended = broken_off(case, tmp_path / "checkpoint", 5, 1)
     assert ended > 0
-    assert resumed.digest(found) == alone(case)
+    assert resumed.digest(result) == alone(case)
 
 
 def killed(case: str, place: Path, times: int, seed: int) -> tuple[str, int]:
     """The digest of a search in processes that are killed at random moments, and how often that was."""
     chance, kills, seconds = random.Random(seed), 0, left_alone(case)[1]
-    begun = Path(f"{place}.begun")
+    mark = Path(f"{place}.begun")
     while True:
-        begun.unlink(missing_ok=True)
+        mark.unlink(missing_ok=True)
         words = [sys.executable, str(SUBJECT), case, str(place)]
         with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as child:
-            while kills < times and not begun.exists() and child.poll() is None:
+            while kills < times and not mark.exists() and child.poll() is None:
                 time.sleep(0.01)
             try:
-                said, _ = child.communicate(
+                output, _ = child.communicate(
                     timeout=chance.uniform(0.0, 0.2) * seconds if kills < times else 300
                 )
             except subprocess.TimeoutExpired:
@@ -87,13 +87,13 @@ def killed(case: str, place: Path, times: int, seed: int) -> tuple[str, int]:
                 kills += 1
                 continue
             assert child.returncode == 0
-            return said.strip(), kills
+            return output.strip(), kills
 
 
 def test_a_killed_search_goes_on(tmp_path: Path) -> None:
-    said, kills = killed("improve", tmp_path / "checkpoint", 10, 2)
+    output, kills = killed("improve", tmp_path / "checkpoint", 10, 2)
     assert kills > 1
-    assert said == alone("improve")
+    assert output == alone("improve")
 
 
 @pytest.mark.soak
@@ -102,8 +102,8 @@ def test_a_hundred_kills(case: str, tmp_path: Path) -> None:
     seed, kills, tries = random.randrange(10**6), 0, 0
     print(f"seed {seed}")
     while kills < 100:
-        said, more = killed(case, tmp_path / str(tries), 100 - kills, seed + tries)
-        assert said == alone(case)
+        output, more = killed(case, tmp_path / str(tries), 100 - kills, seed + tries)
+        assert output == alone(case)
         kills, tries = kills + more, tries + 1
 
 
@@ -112,8 +112,8 @@ def test_chains_go_on_with_more(tmp_path: Path) -> None:
     whole = resumed.chain().more(500)
     part = resumed.chain(checkpoint=place).more(300)
     del part
-    found = resumed.chain(checkpoint=place).more(200)
-    assert resumed.digest(found) == resumed.digest(whole)
+    result = resumed.chain(checkpoint=place).more(200)
+    assert resumed.digest(result) == resumed.digest(whole)
 
 
 def test_a_search_that_is_done_is_not_done_again(tmp_path: Path) -> None:
@@ -148,14 +148,14 @@ def test_what_is_no_checkpoint_of_it_is_refused(tmp_path: Path, reviewed: Any) -
     place = tmp_path / "checkpoint"
     searched(place)
     whole = place.read_bytes()
-    made = {
+    files = {
         "cut": whole[:-7],
         "longer": whole + b"x",
         "version": whole.replace(b"checkpoint 1", b"checkpoint 2", 1),
         "picture": b"\x89PNG\r\n" + whole,
         "empty": b"",
     }
-    for name, data in made.items():
+    for name, data in files.items():
         (tmp_path / name).write_bytes(data)
         with pytest.raises(InputError) as refused:
             searched(tmp_path / name)
@@ -168,18 +168,18 @@ def test_what_is_no_checkpoint_of_it_is_refused(tmp_path: Path, reviewed: Any) -
         (tmp_path / "flipped").write_bytes(flipped)
         with pytest.raises(InputError):
             searched(tmp_path / "flipped")
-    for given in ({"wide": 2.0}, {"steps": 600}, {"seed": 2}):
+    for change in ({"wide": 2.0}, {"steps": 600}, {"seed": 2}):
         with pytest.raises(InputError) as refused:
-            searched(place, **given)  # type: ignore[arg-type]
+            searched(place, **change)  # type: ignore[arg-type]
         assert refused.value.code == "other-checkpoint"
-    said = str(refused.value)
-    assert "its `seed` was 1 and is 2" in said, said
+    message = str(refused.value)
+    assert "its `seed` was 1 and is 2" in message, message
     place.unlink()
     searched(place)
 
 
 def test_keeping_a_checkpoint_costs_little(tmp_path: Path) -> None:
-    """What takes long to write is written less often: at most a fiftieth of the time is spent on it."""
+    """A checkpoint that takes long to write is written less often: at most a fiftieth of the time is spent on it."""
     keeper = Keeper(nw.Checkpoint(tmp_path / "checkpoint", every=2.0), "search", {})
     for cost, pause in ((0.0, 2.0), (0.5, 25.0)):
         now = time.monotonic()

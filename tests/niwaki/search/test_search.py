@@ -59,9 +59,9 @@ def test_enumeration_is_exact() -> None:
 )
 def test_samples_follow_the_exact_answer(method: Any) -> None:
     """Fixed seed. The bound on a share of 4000 (effective about 3000) is 4.5 standard errors: false alarm 7e-6 each."""
-    found = nw.run(COINS, method=method, seed=11).distribution()
+    shares = nw.run(COINS, method=method, seed=11).distribution()
     for value, share in exact().items():
-        assert abs(found.get(value, 0.0) - share) < 4.5 * math.sqrt(share * (1 - share) / 2500)
+        assert abs(shares.get(value, 0.0) - share) < 4.5 * math.sqrt(share * (1 - share) / 2500)
 
 
 def test_a_seed_decides_and_a_fresh_one_is_kept() -> None:
@@ -245,23 +245,23 @@ def search(model: Any, method: Any) -> nw.Result:
 
 def refused(ask: Callable[[], Any]) -> str:
     """The message, without what differs from folder to folder."""
-    with pytest.raises(NiwakiError) as found:
+    with pytest.raises(NiwakiError) as error:
         print(ask())
-    text = str(found.value).replace(str(Path.cwd()), "FOLDER")
+    text = str(error.value).replace(str(Path.cwd()), "FOLDER")
     return re.sub(r" at 0x[0-9a-f]+", "", re.sub(r"[0-9.]+ s\b", "TIME", text))
 
 
 def test_messages_of_models_that_fail(golden: Any) -> None:
-    found = []
+    sections = []
     for name, text in PROGRAMS.items():
         model = load(text)
         method = nw.enumerate_all() if name == "not enumerable" else nw.smc(particles=4)
         message = refused(lambda: [s.queries for s in search(model, method)])  # noqa: B023
-        found.append(f"## {name}\n\n{message}\n")
-    golden(GOLDEN / "searches.txt", "\n".join(found))
+        sections.append(f"## {name}\n\n{message}\n")
+    golden(GOLDEN / "searches.txt", "\n".join(sections))
 
 
 def test_messages_of_settings(golden: Any, monkeypatch: Any) -> None:
     monkeypatch.setattr(memory, "free_memory", lambda: 8 * 10**9)
-    found = [f"## {name}\n\n{refused(ask)}\n" for name, ask in SETTINGS.items()]
-    golden(GOLDEN / "settings.txt", "\n".join(found))
+    sections = [f"## {name}\n\n{refused(ask)}\n" for name, ask in SETTINGS.items()]
+    golden(GOLDEN / "settings.txt", "\n".join(sections))

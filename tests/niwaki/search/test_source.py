@@ -43,8 +43,8 @@ def chair(tmp_path):
 
 
 def middle(sample, part):
-    (found,) = [one for one in sample.parts if one.address == part]
-    low, high = found.shapes[0].aabb()
+    (block,) = [candidate for candidate in sample.parts if candidate.address == part]
+    low, high = block.shapes[0].aabb()
     return (np.array(low) + high) / 2
 
 
@@ -56,7 +56,7 @@ def test_a_default_is_offered_and_written(chair):
     read, place = chair
     sample = read()
     first = changes(sample, "seat", [0.5, 0.0, 0.0])[0]
-    assert first.says == "line 7: 2.0 becomes 2.5"
+    assert first.description == "line 7: 2.0 becomes 2.5"
     assert first.arguments == {"width": 2.5}
     assert first.choices == {}
     assert (
@@ -77,19 +77,19 @@ def test_the_mean_of_a_choice_explains_its_value(chair):
     sample = chair[0]()
     x = sample.choices["x"]
     first = changes(sample, "lamp", [0.42, 0.0, 0.0])[0]
-    assert first.says == "line 10: 3.0 becomes 3.42"
+    assert first.description == "line 10: 3.0 becomes 3.42"
     assert first.choices["x"] == pytest.approx(x + 0.42)
 
 
 def test_the_numbers_of_a_tuple_change_together(chair):
     first = changes(chair[0](), "shelf", [0.25, -0.5, 0.0])[0]
-    assert first.says == "line 12: 0.0 becomes 0.25; line 12: 7.0 becomes 6.5"
+    assert first.description == "line 12: 0.0 becomes 0.25; line 12: 7.0 becomes 6.5"
     assert first.share < 1e-3
 
 
 def test_a_literal_position_moves_along_its_own_axis_only(chair):
-    found = changes(chair[0](), "lamp", [0.0, 0.5, 0.0])
-    assert [one.says for one in found] == ["line 11: 4.0 becomes 4.5"]
+    edits = changes(chair[0](), "lamp", [0.0, 0.5, 0.0])
+    assert [change.description for change in edits] == ["line 11: 4.0 becomes 4.5"]
 
 
 def test_a_file_that_was_edited_is_not_written(chair):

@@ -163,16 +163,16 @@ def test_trajectories_that_reach_what_is_no_number_are_counted() -> None:
     kernel = k.cycle(k.on("a", k.prior()), k.on("x", k.hmc_step(steps=5, step=0.8)))
     with pytest.warns(GradientWarning, match="without a finite gradient"):
         result = nw.run(MODELS["edge"], nw.mh(steps=2000, kernel=kernel), seed=1)
-    (one,) = result.trajectories
-    assert one.divergences.not_finite > 20 and one.fault is not None
-    assert "factor(inf - inf" in one.fault.render()
+    (statistics,) = result.trajectories
+    assert statistics.divergences.not_finite > 20 and statistics.fault is not None
+    assert "factor(inf - inf" in statistics.fault.render()
 
 
 def test_a_comparison_with_nan_is_a_fault_with_its_place_and_no_path() -> None:
     with pytest.warns(GradientWarning, match="comparison"):
         result = nw.run(MODELS["unordered"], nw.mh(steps=2000, kernel=k.hmc_step(steps=5, step=0.5)), seed=1)
-    (one,) = result.trajectories
-    assert one.divergences.not_finite > 20
+    (statistics,) = result.trajectories
+    assert statistics.divergences.not_finite > 20
     assert max(sample.value for sample in result) <= 1.0
 
 
@@ -184,8 +184,8 @@ def chain(
         warnings.simplefilter("always")
         method = nw.mh(**{"steps": 3000, "kernel": kernel, "warmup": warmup} | settings)
         result = nw.run(MODELS[model], method, seed=2)
-    assert all(one.category is GradientWarning and one.filename == __file__ for one in warned)
-    return result, [str(one.message) for one in warned]
+    assert all(warning.category is GradientWarning and warning.filename == __file__ for warning in warned)
+    return result, [str(warning.message) for warning in warned]
 
 
 @pytest.mark.parametrize(
@@ -205,15 +205,16 @@ def test_refusals_for_structure_are_reported_where_no_other_kernel_moves_there(
 ) -> None:
     """Each chain has trajectories that are refused; where something else changes the structure that is no matter."""
     result, warned = chain(kernel)
-    (one,) = result.trajectories
-    assert one.divergences.structure > 50
+    (statistics,) = result.trajectories
+    assert statistics.divergences.structure > 50
     values = {sample.value for sample in result}
     if unmoved is None:
         assert warned == [] and values == {True, False}
         return
     (text,) = warned
     assert text.startswith(
-        f"{one.divergences.structure} of {one.settled} trajectories of `halves` after the warm-up were refused"
+        f"{statistics.divergences.structure} of {statistics.settled} trajectories of `halves` "
+        "after the warm-up were refused"
     )
     assert f"no other kernel of the chain moves {unmoved}" in text
     # Under tempering chains that keep their structures exchange them.
@@ -222,12 +223,12 @@ def test_refusals_for_structure_are_reported_where_no_other_kernel_moves_there(
 
 def test_divergences_are_reported_with_their_count() -> None:
     result, warned = chain(k.cycle(k.prior(), k.hmc_step(steps=3, step=50.0)), model="needle", warmup=0)
-    (one,) = result.trajectories
-    assert one.divergences.energy > 0
+    (statistics,) = result.trajectories
+    assert statistics.divergences.energy > 0
     assert warned[0].startswith(
-        f"{one.divergences.energy} of {one.settled} trajectories of `needle` after the warm-up diverged"
+        f"{statistics.divergences.energy} of {statistics.settled} trajectories of `needle` after the warm-up diverged"
     )
-    assert "give it a smaller `step`, or a `warmup`" in warned[0] and one.settled == one.made
+    assert "give it a smaller `step`, or a `warmup`" in warned[0] and statistics.settled == statistics.made
 
 
 def test_tempering_reaches_the_other_side_of_a_tight_constraint() -> None:
@@ -238,7 +239,7 @@ def test_tempering_reaches_the_other_side_of_a_tight_constraint() -> None:
     result = nw.run(MODELS["needle"], nw.mh(steps=12_000, warmup=2000, thin=10, kernel=kernel), seed=1)
     share = np.array([sample.value for sample in result], dtype=float)
     assert abs(share.mean() - 0.5) < 0.15
-    assert all(len(one.step) == 4 for one in result.trajectories)
+    assert all(len(statistics.step) == 4 for statistics in result.trajectories)
 
 
 def failing() -> dict[str, Callable[[], Any]]:

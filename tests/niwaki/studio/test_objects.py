@@ -41,7 +41,7 @@ def test_nothing_goes_below_the_floor_or_near_an_obstacle(served, connected):
     best = sample(served, connected.view["picked"])
     assert best.scene.bounds[0][1] >= -1.5
     # The engine's own sketch forbids none of the parts.
-    solid = next(ask.given["obstacle"] for ask in best.search.score.asks if ask.function == "avoid")
+    solid = next(ask.arguments["obstacle"] for ask in best.search.score.asks if ask.function == "avoid")
     sketch = _engine.Sketch(nw.avoid(solid).specs)
     assert not any(sketch.add(list(part.shapes)) for part in best.scene)
     turned = np.radians(30.0)

@@ -68,11 +68,11 @@ class Case:
             return False
         a, b, c = corners.transpose(1, 0, 2)
         areas = np.cross(b - a, c - a)
-        found = [corners.min(axis=(0, 1)), corners.max(axis=(0, 1))]
+        box = [corners.min(axis=(0, 1)), corners.max(axis=(0, 1))]
         volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0
         area = np.linalg.norm(areas, axis=1).sum() / 2.0
         return bool(
-            np.allclose(found, self.bounds, atol=2e-3)
+            np.allclose(box, self.bounds, atol=2e-3)
             and np.isclose(volume, self.volume, rtol=2e-3)
             and (self.area is None or np.isclose(area, self.area, rtol=1e-5))
         )
@@ -227,7 +227,7 @@ def plys() -> list[Case]:
     one_list = [k for strip in strips for k in (*strip, -1)]
     textured = "property list uchar float texcoord\n"
     index = "property list uchar int vertex_indices\n"
-    coords = rows((2 * len(one), *[0.5] * 2 * len(one), len(one), *one) for one in MIXED)
+    coords = rows((2 * len(entry), *[0.5] * 2 * len(entry), len(entry), *entry) for entry in MIXED)
     texts: list[tuple[str, str | bytes, dict[str, Any]]] = [
         ("text", whole, {}),
         ("quads", head("ascii", 6) + rows(BOX) + lists(QUADS), {}),
@@ -251,13 +251,13 @@ def plys() -> list[Case]:
             "a number before",
             head("ascii", face="property uchar flag\n" + index)
             + rows(BOX)
-            + rows((7, len(one), *one) for one in MIXED),
+            + rows((7, len(entry), *entry) for entry in MIXED),
             {},
         ),
         (
             "z before y and x",
             head("ascii", vertex="".join(f"property float {axis}\n" for axis in "zyx"))
-            + rows(one[::-1] for one in BOX)
+            + rows(entry[::-1] for entry in BOX)
             + lists(),
             {},
         ),
@@ -293,46 +293,48 @@ def plys() -> list[Case]:
         ("a word", whole.replace("1 2 3", "1 two 3"), {"refused": "no number"}),
         ("no format", whole.replace("ascii", "xml"), {"refused": "names no format"}),
     ]
-    found = [
+    examples = [
         Case(f"ply: {name}", ".ply", t if isinstance(t, bytes) else t.encode(), **more)
         for name, t, more in texts
     ]
     for mark, order in (("<", "binary_little_endian"), (">", "binary_big_endian")):
         for name, faces in (("triangles", TRIANGLES), ("quads", QUADS), ("triangles and quads", MIXED)):
-            body = b"".join(struct.pack(mark + "3f", *one) for one in BOX)
-            body += b"".join(struct.pack(f"{mark}B{len(one)}i", len(one), *one) for one in faces)
-            found.append(Case(f"ply: {order}, {name}", ".ply", head(order, len(faces)).encode() + body))
+            body = b"".join(struct.pack(mark + "3f", *entry) for entry in BOX)
+            body += b"".join(struct.pack(f"{mark}B{len(entry)}i", len(entry), *entry) for entry in faces)
+            examples.append(Case(f"ply: {order}, {name}", ".ply", head(order, len(faces)).encode() + body))
         windows = head(order).replace("\n", "\r\n").encode()
-        found.append(Case(f"ply: {order}, lines of Windows", ".ply", windows + body))
-        found.append(Case(f"ply: {order}, bytes behind", ".ply", head(order).encode() + body + b"made by us"))
-        found.append(
+        examples.append(Case(f"ply: {order}, lines of Windows", ".ply", windows + body))
+        examples.append(
+            Case(f"ply: {order}, bytes behind", ".ply", head(order).encode() + body + b"made by us")
+        )
+        examples.append(
             Case(f"ply: {order}, cut short", ".ply", head(order).encode() + body[:-3], refused="cut short")
         )
         wide = "property uchar flag\nproperty list int uint vertex_indices\nproperty short a\n"
-        body = b"".join(struct.pack(mark + "3d", *one) for one in BOX)
-        body += b"".join(struct.pack(f"{mark}Bi{len(one)}Ih", 3, len(one), *one, 1) for one in MIXED)
-        found.append(
+        body = b"".join(struct.pack(mark + "3d", *entry) for entry in BOX)
+        body += b"".join(struct.pack(f"{mark}Bi{len(entry)}Ih", 3, len(entry), *entry, 1) for entry in MIXED)
+        examples.append(
             Case(
                 f"ply: {order}, doubles and numbers around lists",
                 ".ply",
                 head(order, kind="double", face=wide).encode() + body,
             )
         )
-    return found
+    return examples
 
 
 def stls() -> list[Case]:
     def text(faces: Any = TRIANGLES, name: str = "box", dx: float = 0.0) -> str:
         facets = "".join(
             "facet normal 0 0 0\n outer loop\n"
-            + "".join(f"  vertex {BOX[k][0] + dx} {BOX[k][1]} {BOX[k][2]}\n" for k in one)
+            + "".join(f"  vertex {BOX[k][0] + dx} {BOX[k][1]} {BOX[k][2]}\n" for k in face)
             + " endloop\nendfacet\n"
-            for one in faces
+            for face in faces
         )
         return f"solid {name}\n{facets}endsolid {name}\n"
 
     def binary(head: bytes = b"") -> bytes:
-        facets = (struct.pack("<12fH", 0, 0, 0, *np.ravel([BOX[k] for k in one]), 0) for one in TRIANGLES)
+        facets = (struct.pack("<12fH", 0, 0, 0, *np.ravel([BOX[k] for k in face]), 0) for face in TRIANGLES)
         return head.ljust(80, b"\0") + struct.pack("<I", len(TRIANGLES)) + b"".join(facets)
 
     texts: list[tuple[str, str | bytes, dict[str, Any]]] = [
@@ -418,8 +420,8 @@ class Gltf:
             **more,
         }
 
-    def glb(self, *given: Any, **more: Any) -> bytes:
-        text = json.dumps(self.tree(*given, **more)).encode()
+    def glb(self, *nodes: Any, **more: Any) -> bytes:
+        text = json.dumps(self.tree(*nodes, **more)).encode()
         text += b" " * (-len(text) % 4)
         body = self.body + b"\0" * (-len(self.body) % 4)
         total = 28 + len(text) + len(body)
@@ -434,10 +436,10 @@ def box_of(file: Gltf) -> list[dict[str, Any]]:
 
 
 def gltfs() -> list[Case]:
-    found = []
+    examples = []
 
     def case(name: str, data: bytes, suffix: str = ".glb", **more: Any) -> None:
-        found.append(Case(f"gltf: {name}", suffix, data, **more))
+        examples.append(Case(f"gltf: {name}", suffix, data, **more))
 
     file = Gltf()
     case("plain", file.glb([{"mesh": 0}], box_of(file)))
@@ -511,7 +513,7 @@ def gltfs() -> list[Case]:
     nodes = [{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": attributes}}}]
     case("instances without scales", file.glb(nodes, box), refused="instances have [1, 3]")
 
-    for name, said in (
+    for name, reason in (
         ("KHR_draco_mesh_compression", "compressed"),
         ("EXT_meshopt_compression", "compressed"),
         ("XYZ_curved_space", "'XYZ_curved_space', which is not known"),
@@ -520,7 +522,7 @@ def gltfs() -> list[Case]:
         case(
             f"requires {name}",
             file.glb([{"mesh": 0}], box_of(file), extensionsUsed=[name], extensionsRequired=[name]),
-            refused=said,
+            refused=reason,
             assimp="reads without it",
         )
     file = Gltf()
@@ -575,7 +577,7 @@ def gltfs() -> list[Case]:
     file = Gltf()
     places = file.add(BOX, 5126, "VEC3")
     around = file.add([0, 4, 1, 5, 2, 6, 3, 7, 0, 4], 5123, "SCALAR")
-    ends = [file.add(one, 5123, "SCALAR") for one in ([0, 3, 2, 1], [4, 5, 6, 7])]
+    ends = [file.add(strip, 5123, "SCALAR") for strip in ([0, 3, 2, 1], [4, 5, 6, 7])]
     parts = [{"attributes": {"POSITION": places}, "indices": ends[k], "mode": 6} for k in range(2)]
     around_back = file.add([4, 0, 5, 1, 6, 2, 7, 3, 4, 0], 5123, "SCALAR")
     del around
@@ -650,7 +652,7 @@ def gltfs() -> list[Case]:
         bounds=((0, 0, 0), (2, 4, 6)),
         assimp="keeps bones apart",
     )
-    return found
+    return examples
 
 
 CASES = [*objs(), *plys(), *stls(), *gltfs()]

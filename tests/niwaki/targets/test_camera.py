@@ -55,10 +55,10 @@ def test_defaults_are_those_of_the_published_cameras() -> None:
     ],
 )
 def test_cameras_that_see_nothing(change: dict[str, Any], part: str) -> None:
-    with pytest.raises(InputError) as found:
+    with pytest.raises(InputError) as error:
         Camera.from_dict({**GOOD, **change}, name="cam.json")
-    assert found.value.code == "bad-camera"
-    assert part in str(found.value) and " = found: cam.json" in str(found.value)
+    assert error.value.code == "bad-camera"
+    assert part in str(error.value) and " = found: cam.json" in str(error.value)
 
 
 def test_orthographic_cameras_need_a_height() -> None:

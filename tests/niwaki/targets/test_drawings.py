@@ -24,9 +24,9 @@ def test_what_is_held_out_is_frozen() -> None:
     names = drawings.names(use="held-out")
     whole = hashlib.sha256()
     for name in names:
-        one = drawings.drawing(name)
-        whole.update(f"{name} {one.start} {one.ahead}".encode())
-        whole.update(one.greys.tobytes())
+        drawing = drawings.drawing(name)
+        whole.update(f"{name} {drawing.start} {drawing.ahead}".encode())
+        whole.update(drawing.greys.tobytes())
     assert whole.hexdigest() == HELD_OUT
     assert {name.partition("/")[0] for name in names} == set(drawings.COLLECTIONS)
     assert {name.partition("/")[0] for name in drawings.names(use="training")} == {"scribbles"}
@@ -37,13 +37,13 @@ def test_every_drawing_has_ink_at_its_start_and_clean_paper() -> None:
     assert len(names) == len(set(names)) == 220 + 197 + 36 + 35
     seen = set()
     for name in names:
-        one = drawings.drawing(name)
-        assert one.greys.shape == (50, 50)
-        x, y = one.start
-        assert one.greys[int((1.0 - y) * 50), int(x * 50)] < 255, name
-        fill = float((one.greys < 255).mean())
+        drawing = drawings.drawing(name)
+        assert drawing.greys.shape == (50, 50)
+        x, y = drawing.start
+        assert drawing.greys[int((1.0 - y) * 50), int(x * 50)] < 255, name
+        fill = float((drawing.greys < 255).mean())
         assert 0.04 < fill < 0.9, name
-        seen.add(one.greys.tobytes())
+        seen.add(drawing.greys.tobytes())
     assert len(seen) == len(names)
 
 
@@ -87,9 +87,9 @@ def test_a_page_of_two_colours_is_dark_ink_too(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("value", [0, 255, 252])
 def test_a_page_of_one_colour_is_refused(value: int) -> None:
-    with pytest.raises(InputError, match="one colour only") as found:
+    with pytest.raises(InputError, match="one colour only") as error:
         images.ink(np.full((5, 5), value, dtype=np.uint8))
-    assert found.value.code == "drawing-one-color"
+    assert error.value.code == "drawing-one-color"
 
 
 def test_the_lowest_point_lies_inside_of_the_ink() -> None:

@@ -47,10 +47,10 @@ def test_written_targets_read_back(tmp_path: Path) -> None:
         [f"{name}.obj" for name in targets.TARGETS] + [f"{name}.png" for name in targets.IMAGES]
     )
     for path in written[: len(targets.TARGETS)]:
-        again, made = Target.load(path), targets.TARGETS[path.stem]()
+        again, target = Target.load(path), targets.TARGETS[path.stem]()
         assert again.open_edges == 0
-        assert np.allclose(again.bounds, made.bounds, atol=1e-6)
-        assert again.volume == pytest.approx(made.volume, rel=1e-5)
+        assert np.allclose(again.bounds, target.bounds, atol=1e-6)
+        assert again.volume == pytest.approx(target.volume, rel=1e-5)
 
 
 def test_the_list_is_of_all_targets() -> None:

@@ -18,9 +18,9 @@ CELL = 0.1 / 2.0
 
 
 def of(*shapes: nw.Shape) -> Fit:
-    found = fit(SCORE, Scene([(f"{k}", [shape]) for k, shape in enumerate(shapes)]))
-    assert found is not None
-    return found
+    measure = fit(SCORE, Scene([(f"{k}", [shape]) for k, shape in enumerate(shapes)]))
+    assert measure is not None
+    return measure
 
 
 def test_shares_of_a_volume_are_those_of_boxes() -> None:
@@ -73,9 +73,9 @@ def block(x, size):
     [(0.0, 60.0, "15 times as large as the target"), (100.0, 2.0, "far from where the model begins")],
 )
 def test_another_unit_and_another_place_are_warnings(x: float, size: float, text: str) -> None:
-    with pytest.warns(SearchWarning) as found:
+    with pytest.warns(SearchWarning) as caught:
         nw.grow(block, TARGET, x, size, particles=5, seed=1, voxel=0.5)
-    assert any(text in str(one.message) for one in found)
+    assert any(text in str(warning.message) for warning in caught)
 
 
 def test_a_result_without_a_scene_is_a_warning() -> None:
@@ -90,26 +90,26 @@ def test_cells_are_those_that_the_score_counts() -> None:
         box((9, 9, 9), (1, 1, 1)),
     ]
     scene = Scene([(f"{k}", [shape]) for k, shape in enumerate(shapes)])
-    found = cells(SCORE, scene)
-    assert found is not None
-    inside = int((found.scene & found.target).sum())
-    assert of(*shapes).covered == inside / int(found.target.sum())
+    grid = cells(SCORE, scene)
+    assert grid is not None
+    inside = int((grid.scene & grid.target).sum())
+    assert of(*shapes).covered == inside / int(grid.target.sum())
     sketch = nw._engine.Sketch(SCORE.specs)
     for shape in shapes:
         sketch.add([shape])
-    assert sketch.measures()["filled"] == found.scene.sum()
-    assert sketch.similarity() == 1.0 - (found.scene != found.target).sum() / found.scene.size
+    assert sketch.measures()["filled"] == grid.scene.sum()
+    assert sketch.similarity() == 1.0 - (grid.scene != grid.target).sum() / grid.scene.size
 
 
 def test_the_cells_of_a_box_are_those_that_it_touches() -> None:
-    found = cells(SCORE, Scene([("0", [box((0.5, 1, 0), (0.46, 0.94, 0.46))])]))
-    assert found is not None
-    step = (found.high - found.low) / found.scene.shape
+    grid = cells(SCORE, Scene([("0", [box((0.5, 1, 0), (0.46, 0.94, 0.46))])]))
+    assert grid is not None
+    step = (grid.high - grid.low) / grid.scene.shape
     edges = [
-        low + size * np.arange(n + 1) for low, size, n in zip(found.low, step, found.scene.shape, strict=True)
+        low + size * np.arange(n + 1) for low, size, n in zip(grid.low, step, grid.scene.shape, strict=True)
     ]
     touched = [
         (e[:-1] <= b) & (e[1:] >= a)
         for e, a, b in zip(edges, (0.27, 0.53, -0.23), (0.73, 1.47, 0.23), strict=True)
     ]
-    assert np.array_equal(found.scene, np.einsum("x,y,z->xyz", *touched))
+    assert np.array_equal(grid.scene, np.einsum("x,y,z->xyz", *touched))

@@ -26,11 +26,11 @@ LATE = [0.0] * 8 + [16.0]
 
 @pytest.fixture(scope="module")
 def program() -> Any:
-    found = re.search(r"```python\n(.*?)```", PAGE, re.DOTALL)
-    assert found is not None
-    linecache.cache["garden_path.py"] = (len(found[1]), None, found[1].splitlines(True), "garden_path.py")
+    block = re.search(r"```python\n(.*?)```", PAGE, re.DOTALL)
+    assert block is not None
+    linecache.cache["garden_path.py"] = (len(block[1]), None, block[1].splitlines(True), "garden_path.py")
     space: dict[str, Any] = {"__name__": "garden_path"}
-    exec(compile(found[1], "garden_path.py", "exec"), space)
+    exec(compile(block[1], "garden_path.py", "exec"), space)
     return space["wall_and_tower"]
 
 
@@ -52,17 +52,17 @@ def grown(program: Any, target: nw.Target, seed: int, **settings: Any) -> nw.Res
 
 def test_random_order_follows_the_path_and_depth_first_does_not(program: Any, target: nw.Target) -> None:
     lost = [grown(program, target, seed) for seed in SEEDS]
-    found = [grown(program, target, seed, order="depth-first") for seed in SEEDS]
+    results = [grown(program, target, seed, order="depth-first") for seed in SEEDS]
     assert not any(lost)
-    assert all(one is not None and one.best.log_score > 5.5 for one in found)
+    assert all(result is not None and result.best.log_score > 5.5 for result in results)
 
 
 def test_the_usual_search_tries_a_power_that_rises(program: Any, target: nw.Target) -> None:
     for seed in SEEDS:
-        found = nw.grow(program, target, voxel=0.25, seed=seed)
-        assert found.best.log_score > 5.0
-        *dead, alive = found.info.attempts
-        assert dead and all(one.died_at is not None for one in dead) and alive.died_at is None
+        result = nw.grow(program, target, voxel=0.25, seed=seed)
+        assert result.best.log_score > 5.0
+        *dead, alive = result.info.attempts
+        assert dead and all(attempt.died_at is not None for attempt in dead) and alive.died_at is None
 
 
 def test_judging_late_and_revising_help(program: Any, target: nw.Target) -> None:

@@ -25,8 +25,8 @@ def test_modes_agree(tmp_path: Path, mode: str) -> None:
         # Two colours by threshold: dithering would scatter the grey.
         image = Image.fromarray(ON) if mode == "1" else grey.convert("RGB").convert(mode)
     image.save(tmp_path / "image.png")
-    for given in (tmp_path / "image.png", str(tmp_path / "image.png"), image):
-        assert (silhouette(given) == ON).all()
+    for source in (tmp_path / "image.png", str(tmp_path / "image.png"), image):
+        assert (silhouette(source) == ON).all()
 
 
 def test_arrays() -> None:
@@ -78,9 +78,9 @@ def test_refused(tmp_path: Path) -> None:
         ("text.png", "file-unreadable"),
         ("cut.png", "file-unreadable"),
     ):
-        with pytest.raises(FileError) as found:
+        with pytest.raises(FileError) as error:
             silhouette(tmp_path / name)
-        assert found.value.code == code
+        assert error.value.code == code
     for values in (
         np.zeros(7),
         np.zeros((3, 3, 7)),
@@ -91,9 +91,9 @@ def test_refused(tmp_path: Path) -> None:
         with pytest.raises(InputError) as wrong:
             silhouette(values)
         assert wrong.value.code == "bad-image"
-    for one in (np.zeros((5, 5), bool), np.ones((5, 5), bool)):
+    for pixels in (np.zeros((5, 5), bool), np.ones((5, 5), bool)):
         with pytest.raises(InputError) as color:
-            silhouette(one)
+            silhouette(pixels)
         assert color.value.code == "image-one-color"
     with pytest.raises(InputError) as size:
         weights(np.zeros((5, 5)), ON)

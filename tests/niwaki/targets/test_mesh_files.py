@@ -31,9 +31,9 @@ def written(case: Case, folder: Path) -> Path:
 def test_a_trap_is_read_right_or_refused(case: Case, tmp_path: Path) -> None:
     path = written(case, tmp_path)
     if case.refused:
-        with pytest.raises(FileError) as found:
+        with pytest.raises(FileError) as error:
             Target.load(path)
-        assert case.refused in str(found.value) and str(path) in str(found.value)
+        assert case.refused in str(error.value) and str(path) in str(error.value)
         return
     # A surface with open edges is warned of, and a warning fails here.
     mesh = Target.load(path)
@@ -82,18 +82,18 @@ def test_a_polygon_fills_the_cells_of_the_boxes_that_it_is_made_of() -> None:
     fans = [(face[0], face[k], face[k + 1]) for face in polygons for k in range(1, len(face) - 1)]
     boxes = [((0, 0, 0), (3, 1, 2)), ((0, 0, 0), (1, 3, 2)), ((2, 0, 0), (3, 3, 2))]
     for voxel in (0.5, 0.26, 0.21, 0.1):
-        found = Filled(np.array(vertices, np.float64), np.array(fans), voxel)
-        low, high = map(np.array, found.domain)
-        size = (high - low) / found.dims
-        wanted = np.zeros(found.dims, bool)
+        grid = Filled(np.array(vertices, np.float64), np.array(fans), voxel)
+        low, high = map(np.array, grid.domain)
+        size = (high - low) / grid.dims
+        expected = np.zeros(grid.dims, bool)
         for ends in boxes:
             # A cell is touched up to a millionth of its size.
             first, last = (
                 np.floor((np.array(end) - low) / size + by).astype(int)
                 for end, by in zip(ends, (-1e-6, 1e-6), strict=True)
             )
-            wanted[tuple(slice(a, b + 1) for a, b in zip(first, last, strict=True))] = True
-        assert found.filled == wanted.sum()
+            expected[tuple(slice(a, b + 1) for a, b in zip(first, last, strict=True))] = True
+        assert grid.filled == expected.sum()
 
 
 def test_a_hole_is_filled_where_no_voxel_goes_through() -> None:
@@ -104,7 +104,9 @@ def test_a_hole_is_filled_where_no_voxel_goes_through() -> None:
     with pytest.warns(TargetWarning, match="through a hole wider than a voxel the outside comes in"):
         opened = Target(box.vertices, box.faces[~hole])
     closed = Target(box.vertices, box.faces)
-    few, many = ([cells(one.vertices, one.faces, voxel) for one in (opened, closed)] for voxel in (0.7, 0.1))
+    few, many = (
+        [cells(mesh.vertices, mesh.faces, voxel) for mesh in (opened, closed)] for voxel in (0.7, 0.1)
+    )
     assert few[0] == few[1]
     assert many[0] < 0.4 * many[1]
 

@@ -32,11 +32,11 @@ def saved(folder: Path, name: str, text: str) -> Path:
     ],
 )
 def test_every_notation_gives_the_same_room(tmp_path: Path, name: str, text: str) -> None:
-    found = load_polygon(saved(tmp_path, name, text))
-    assert polygon_area(found) == 12.0
-    assert {corner.parts for corner in found} == {(float(x), float(y)) for x, y in ELL}
-    start = [corner.parts for corner in found].index((0.0, 0.0))
-    assert [found[(start + k) % 6].parts for k in range(6)] == [(float(x), float(y)) for x, y in ELL]
+    corners = load_polygon(saved(tmp_path, name, text))
+    assert polygon_area(corners) == 12.0
+    assert {corner.parts for corner in corners} == {(float(x), float(y)) for x, y in ELL}
+    start = [corner.parts for corner in corners].index((0.0, 0.0))
+    assert [corners[(start + k) % 6].parts for k in range(6)] == [(float(x), float(y)) for x, y in ELL]
 
 
 @pytest.mark.parametrize(

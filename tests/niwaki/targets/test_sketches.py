@@ -48,12 +48,12 @@ def test_an_image_is_scored_by_the_weight_of_equal_pixels() -> None:
     assert sketch.similarity() == pytest.approx(1 - (weights * ON).sum() / weights.sum())
     # A box from row 20 to 50 and column 40 to 90; a unit is ten pixels.
     sketch.add([shape((1.5, 1.5, 0), (5, 3, 1))])
-    made = np.zeros_like(ON)
-    made[20:50, 40:90] = True
-    similarity = (weights * (made == ON)).sum() / weights.sum()
+    mask = np.zeros_like(ON)
+    mask[20:50, 40:90] = True
+    similarity = (weights * (mask == ON)).sum() / weights.sum()
     assert sketch.similarity() == pytest.approx(similarity)
     assert sketch.log_score() == pytest.approx(log_normal(similarity, 1, 0.05))
-    assert (score.views[0].picture.mask([shape((1.5, 1.5, 0), (5, 3, 1))]) == made).all()
+    assert (score.views[0].picture.mask([shape((1.5, 1.5, 0), (5, 3, 1))]) == mask).all()
 
 
 def test_a_shadow_in_the_lights_own_view_is_a_plan() -> None:
@@ -136,21 +136,21 @@ def test_an_obstacle_above_is_kept_clear() -> None:
 def test_each_of_two_obstacles_is_kept_in_the_record() -> None:
     near, far = cube((0, 1, 0)), cube((0, 7, 0))
     score = nw.avoid(near, voxel=0.1) * nw.avoid(far, voxel=0.2)
-    given = [one["given"] for one in score.data(lambda value: value)]
-    found = [(one["obstacle"].vertices[:, 1].min(), one["voxel"]) for one in given]
-    assert found == [(near.vertices[:, 1].min(), 0.1), (far.vertices[:, 1].min(), 0.2)]
+    records = [record["given"] for record in score.data(lambda value: value)]
+    obstacles = [(record["obstacle"].vertices[:, 1].min(), record["voxel"]) for record in records]
+    assert obstacles == [(near.vertices[:, 1].min(), 0.1), (far.vertices[:, 1].min(), 0.2)]
 
 
 def warned(make: Callable[[], Any]) -> str:
-    with pytest.warns(TargetWarning) as found:
+    with pytest.warns(TargetWarning) as caught:
         make()
-    return f"{found[0].category.__name__}: {found[0].message}"
+    return f"{caught[0].category.__name__}: {caught[0].message}"
 
 
 def refused(make: Callable[[], Any]) -> str:
-    with pytest.raises(nw.NiwakiError) as found:
+    with pytest.raises(nw.NiwakiError) as error:
         make()
-    return str(found.value)
+    return str(error.value)
 
 
 def test_messages(golden: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -160,7 +160,7 @@ def test_messages(golden: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     covered = nw.avoid(cube((0, 0.5, 0)), voxel=0.2)
     lines = tmp_path / "far.obj"
     lines.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
-    found = [
+    messages = [
         refused(lambda: nw.match_image(np.zeros((50, 40)), CAMERA)),
         refused(lambda: nw.match_image(np.ones((50, 40)), CAMERA)),
         refused(lambda: nw.match_image(np.zeros(7), CAMERA)),
@@ -192,13 +192,13 @@ def test_messages(golden: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
         refused(lambda: nw.run(tower, score=covered, method=nw.smc(particles=20), seed=1)),
     ]
     whole = cube()
-    found.append(warned(lambda: nw.Target(whole.vertices, whole.faces[1:], "a cube with a hole")))
+    messages.append(warned(lambda: nw.Target(whole.vertices, whole.faces[1:], "a cube with a hole")))
     monkeypatch.setattr("niwaki.targets.memory.free_memory", lambda: 1000)
-    found += [
+    messages += [
         refused(lambda: nw.Target(np.eye(3), np.tile([0, 1, 2], (10_000_000, 1)), "a scan")),
         refused(lambda: nw.Receiver.load(lines)).replace(str(tmp_path), "targets"),
     ]
-    golden(GOLDEN / "controls.txt", "\n\n".join(found) + "\n")
+    golden(GOLDEN / "controls.txt", "\n\n".join(messages) + "\n")
 
 
 def test_an_open_obstacle_is_warned_of(tmp_path: Path) -> None:
@@ -221,7 +221,7 @@ def test_every_sketch_of_the_engine_has_a_public_function() -> None:
 
 
 def test_a_file_is_a_target(tmp_path: Path) -> None:
-    """What is grown into a file is, to the bit, what is grown into its mesh; another mesh scores otherwise."""
+    """Growth into a file equals growth into its mesh, to the bit; another mesh scores otherwise."""
 
     def tower() -> None:
         nw.emit(nw.box((0, 0, 0), (1, nw.uniform(0.5, 3), 1)))

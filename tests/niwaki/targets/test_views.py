@@ -33,8 +33,8 @@ def test_panels_of_a_silhouette() -> None:
         [PAPER, MISSING, INK, SURPLUS, PAPER],
     ]
     # The scene itself is where its silhouette is, to a pixel.
-    own = np.asarray(page.crop((3 * width, 0, 3 * width + 200, 200)))
-    rows = np.nonzero((np.abs(own.astype(int) - PAPER).sum(axis=2) > 40)[:, 100])[0]
+    panel = np.asarray(page.crop((3 * width, 0, 3 * width + 200, 200)))
+    rows = np.nonzero((np.abs(panel.astype(int) - PAPER).sum(axis=2) > 40)[:, 100])[0]
     assert (rows.min(), rows.max()) == (pytest.approx(80, abs=2), pytest.approx(159, abs=2))
 
 

@@ -21,7 +21,7 @@ from niwaki.search.drag.source import NEAR, SourceChange, explained
 from niwaki.search.drag.structure import structures
 
 #: Answers are equal if their choices differ by less than this, in deviations of the priors.
-SAME = 0.05
+TOLERANCE = 0.05
 #: Another structure counts as the nearest state only if its distance is at most this share of the others'.
 WORTH = 0.8
 #: The number of descents from other values if the first ones give no answer, and the distance of these values, in
@@ -49,44 +49,44 @@ class Dragging(Held):
             return self._to(goal, answers, structure)
 
     def _to(self, goal: Vector, answers: int, structure: bool) -> Drag:
-        begun = self.begun
-        names = set[str]() if begun is None else self.movers(begun)
-        if begun is None or not names:
-            found: list[tuple[str, State]] = []
+        place = self.start_place
+        names = set[str]() if place is None else self.movers(place)
+        if place is None or not names:
+            states: list[tuple[str, State]] = []
         else:
-            found = [
-                (kind, descend(self, goal, self.start, some)) for kind, some in self._kinds(begun, names)
+            states = [
+                (kind, descend(self, goal, self.start, some)) for kind, some in self._kinds(place, names)
             ]
-        answered, forbidden = self._possible(found, answers)
-        if found and not answered:
-            others = [("other", state) for state in self._elsewhere(goal, names)]
-            found += others
-            answered, forbidden = self._possible(others, answers, forbidden)
+        answered, forbidden = self._possible(states, answers)
+        if states and not answered:
+            fallbacks = [("other", state) for state in self._elsewhere(goal, names)]
+            states += fallbacks
+            answered, forbidden = self._possible(fallbacks, answers, forbidden)
         if structure and not answered:
-            others = [("structure", state) for state in structures(self, goal)]
-            found += others
-            answered, forbidden = self._possible(others, answers, forbidden)
+            fallbacks = [("structure", state) for state in structures(self, goal)]
+            states += fallbacks
+            answered, forbidden = self._possible(fallbacks, answers, forbidden)
         if answered:
             return Drag(answered)
-        there = [(kind, state) for kind, state in found if state.error <= NEAR * self.size]
+        there = [(kind, state) for kind, state in states if state.error <= NEAR * self.size]
         if there:
             near = self._scored(*there[0])
             return Drag([], near, f"the run is impossible with `{self.start.part}` at the point: {forbidden}")
-        if not found:
+        if not states:
             return Drag([], None, nothing_moves(self))
         # Another structure must be much nearer.
         kind, state = min(
-            found, key=lambda entry: entry[1].error / (WORTH if entry[0] == "structure" else 1.0)
+            states, key=lambda entry: entry[1].error / (WORTH if entry[0] == "structure" else 1.0)
         )
         return Drag([], self._scored(kind, state), too_far(self, goal, state))
 
     def _possible(
-        self, found: Sequence[tuple[str, State]], answers: int, forbidden: str = ""
+        self, states: Sequence[tuple[str, State]], answers: int, forbidden: str = ""
     ) -> tuple[list[Dragged], str]:
         """Select different and possible states at the point, the least change first; or the cause against one."""
         answered: list[Dragged] = []
         looked_at: list[dict[str, Any]] = []
-        there = [(kind, state) for kind, state in found if state.error <= NEAR * self.size]
+        there = [(kind, state) for kind, state in states if state.error <= NEAR * self.size]
         for kind, state in sorted(there, key=lambda entry: self._change(entry[1])):
             after = state.choices
             if len(answered) >= answers or any(self._is_same(after, other) for other in looked_at):
@@ -102,11 +102,11 @@ class Dragging(Held):
     def _elsewhere(self, goal: Vector, names: set[str]) -> list[State]:
         """Descend from other values of the choices, drawn around those of the run by the seed of the search."""
         rng = np.random.default_rng(self.search.seed)
-        first = self.begun
+        first = self.start_place
         assert first is not None
         low, high = bounds(first.ranges)
         moving = np.array([name in names for _, name, _ in first.movables])
-        found = []
+        states = []
         for _ in range(ELSEWHERE):
             drawn = first.ranges[:, 0] + rng.normal(size=len(moving)) * first.ranges[:, 3] * AROUND
             values = np.clip(drawn, low, high).tolist()
@@ -117,8 +117,8 @@ class Dragging(Held):
             }
             # A run with these values may fail, or make other choices.
             with suppress(_engine.EngineFault):
-                found.append(descend(self, goal, self.start, names, warm, is_near_warm=True))
-        return found
+                states.append(descend(self, goal, self.start, names, warm, is_near_warm=True))
+        return states
 
     def move(self, point: Point) -> Moved:
         """Move the part with the least change, for a moving pointer: the descent starts at the last point."""
@@ -127,9 +127,9 @@ class Dragging(Held):
             return self._move(goal)
 
     def _move(self, goal: Vector) -> Moved:
-        begun = self.begun
-        names = set() if begun is None else self.movers(begun)
-        if begun is None or not names:
+        place = self.start_place
+        names = set() if place is None else self.movers(place)
+        if place is None or not names:
             left = self.left(goal, self.middle) / self.size
             return Moved(Scene(self.start.trace.parts), triple(self.middle), left, nothing_moves(self))
         state = descend(self, goal, self.start, names, self._warm)
@@ -140,13 +140,13 @@ class Dragging(Held):
         scene = Scene(self.replayed(self.task, state).parts)
         return Moved(scene, triple(here.point), state.error / self.size, reason)
 
-    def _kinds(self, begun: Place, names: set[str]) -> list[tuple[str, set[str]]]:
+    def _kinds(self, place: Place, names: set[str]) -> list[tuple[str, set[str]]]:
         """Sets of choices that may change: the ways in which an edit can be meant."""
         call = self.start.part.rpartition("/")[0]
-        own = {name for name in names if name.rpartition("/")[0] == call}
+        inner = {name for name in names if name.rpartition("/")[0] == call}
         outer = {name for name in names if "/" not in name}
-        kinds = [("least", names), ("own", own), ("outermost", outer)]
-        reach = begun.reach
+        kinds = [("least", names), ("own", inner), ("outermost", outer)]
+        reach = place.reach
         few = set(sorted(names, key=lambda name: -reach[name])[:3])
         kinds.append(("fewest", few))
         kept: list[tuple[str, set[str]]] = []
@@ -164,12 +164,15 @@ class Dragging(Held):
         ]
         return float(np.square(moved).sum()) + (1e6 if state.is_other else 0.0)
 
-    def _is_same(self, one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
+    def _is_same(self, choices: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
         """Whether two runs differ by little in all of their choices."""
-        return one.keys() == other.keys() and all(
+        return choices.keys() == other.keys() and all(
             value == other[name]
-            or (isinstance(value, float) and abs(value - other[name]) < SAME * self.spreads.get(name, 0.0))
-            for name, value in one.items()
+            or (
+                isinstance(value, float)
+                and abs(value - other[name]) < TOLERANCE * self.spreads.get(name, 0.0)
+            )
+            for name, value in choices.items()
         )
 
     def _scored(self, kind: str, state: State) -> Dragged:

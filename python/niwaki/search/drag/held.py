@@ -107,9 +107,9 @@ class Held:
         kept = sample._held(hold)
         for address, value in kept.items():
             if sample.choices.get(address) != value:
-                found = sample.choices.get(address, "no such choice")
+                actual = sample.choices.get(address, "no such choice")
                 raise bad(
-                    "hold", {address: value}, f"the value of the run, {found!r}", "`sample.held(pattern)`"
+                    "hold", {address: value}, f"the value of the run, {actual!r}", "`sample.held(pattern)`"
                 )
         self.holds = {*kept, *search.held}
         self.across = _projection(along)
@@ -123,27 +123,29 @@ class Held:
         """The shapes of the part: place, number, middle and directions, and the shape."""
         trace = self.start.trace
         scene = [address for address, _ in trace.parts]
-        wanted = {n for n, address in enumerate(scene) if _engine.matches(part, address)}
-        if not wanted:
+        numbers = {n for n, address in enumerate(scene) if _engine.matches(part, address)}
+        if not numbers:
             choices = [choice.path for choice in trace.choices if choice.family != "delta"]
             calls = parts.matching_parts(part, choices, scene, self.search.model.name)
-            wanted = {n for n, place in enumerate(scene) if any(place.startswith(f"{c}/") for c in calls)}
-        if not wanted:
-            near = ", ".join(f"`{one}`" for one in _engine.nearest(part, scene))
+            numbers = {n for n, place in enumerate(scene) if any(place.startswith(f"{c}/") for c in calls)}
+        if not numbers:
+            near = ", ".join(f"`{name}`" for name in _engine.nearest(part, scene))
             raise InputError("no-address", pattern=part, name=self.search.model.name, nearest=near)
         free = {choice.address for choice in trace.choices}
         # A part whose choices are held is placed, too; the reason then names the held choices.
         self.all = self.start.placer.positions({}, free)
         spreads = np.maximum(self.all.ranges()[:, 3], 1e-12).tolist()
-        self.spreads = {one[1]: spread for one, spread in zip(self.all.movables, spreads, strict=True)}
-        found: list[tuple[int, int, Vector, Any]] = []
-        for n in sorted(wanted):
+        self.spreads = {
+            movable[1]: spread for movable, spread in zip(self.all.movables, spreads, strict=True)
+        }
+        grips: list[tuple[int, int, Vector, Any]] = []
+        for n in sorted(numbers):
             for k, shape in enumerate(trace.parts[n][1]):
                 frame = self.all.frame(n, k)
                 low, high = (np.array(corner) for corner in shape.aabb())
                 middle = np.vstack([(low + high) / 2, np.zeros((3, 3))]) if frame is None else frame
-                found.append((n, k, middle, shape))
-        return found
+                grips.append((n, k, middle, shape))
+        return grips
 
     def _grip(self, grab: Vector | None, to: Vector | None) -> Grip:
         """Find the held point.
@@ -152,8 +154,8 @@ class Held:
         """
         goal = to if grab is None else grab
 
-        def distance(one: tuple[int, int, Vector, Any]) -> float:
-            low, high = (np.array(corner) for corner in one[3].aabb())
+        def distance(grip: tuple[int, int, Vector, Any]) -> float:
+            low, high = (np.array(corner) for corner in grip[3].aabb())
             return 0.0 if goal is None else float(np.linalg.norm(np.clip(goal, low, high) - goal))
 
         self.at, shape, frame, _ = min(self._grips, key=distance)
@@ -194,7 +196,7 @@ class Held:
         return {name for name, far in place.reach.items() if far > 1e-9 * self.size}
 
     @cached_property
-    def begun(self) -> Place | None:
+    def start_place(self) -> Place | None:
         """The point at the start of the drag, with its derivatives by all movable choices."""
         return self.whole(self.start)
 
@@ -208,13 +210,13 @@ class Held:
         return task.replay(state.choices, seed)
 
 
-def point_of(name: str, given: Point) -> Vector:
+def point_of(name: str, value: Point) -> Vector:
     """Read a point of two or three numbers."""
-    point = np.array(given, dtype=np.float64)
+    point = np.array(value, dtype=np.float64)
     if point.shape == (2,):
         point = np.append(point, 0.0)
     if point.shape != (3,) or not np.isfinite(point).all():
-        raise bad(name, given, "a point of two or three finite numbers", "(1.0, 2.0, 0.0)")
+        raise bad(name, value, "a point of two or three finite numbers", "(1.0, 2.0, 0.0)")
     return point
 
 

@@ -75,7 +75,7 @@ class SourceChange:
     text: str
 
     @property
-    def says(self) -> str:
+    def description(self) -> str:
         """Description of the change, in a few words."""
         return "; ".join(f"line {edit.line}: {edit.before} becomes {edit.after}" for edit in self.edits)
 
@@ -122,10 +122,10 @@ class _Number:
 def explained(held: Held, goal: Vector, most: int = 3) -> list[SourceChange]:
     """List changes of the model's file that take the held point to a goal, the least change first."""
     model = held.search.model
-    found = _source(model)
-    if found is None:
+    source = _source(model)
+    if source is None:
         return []
-    file, node, text = found
+    file, node, text = source
     core = lower(model.function, lifts=True)
     numbers = [
         _Number("constants", key, span, core.constants[key])
@@ -144,8 +144,8 @@ def explained(held: Held, goal: Vector, most: int = 3) -> list[SourceChange]:
             task = task.holding(held.search.held)
         placer = task.placer(held.start.trace.run)
         descent = _Descent(held, placer, goal)
-        begun = descent.look(numbers, [number.value for number in numbers], {})
-        reach = {} if begun is None else dict(enumerate(np.linalg.norm(begun.slopes, axis=0).tolist()))
+        start = descent.look(numbers, [number.value for number in numbers], {})
+        reach = {} if start is None else dict(enumerate(np.linalg.norm(start.slopes, axis=0).tolist()))
         moving = [numbers[k] for k in sorted(reach, key=lambda k: -reach[k]) if reach[k] > 0][:TRIED]
         groups = [[number] for number in moving] + list(_together(moving, ast.parse(text)))
         changes = [
@@ -170,10 +170,10 @@ def as_defaults(model: Model[..., Any], arguments: Mapping[str, Any]) -> SourceC
     -------
     None if nothing changes, if the file is not the user's, or if it has changed since it was read.
     """
-    found = _source(model)
-    if found is None:
+    source = _source(model)
+    if source is None:
         return None
-    file, node, text = found
+    file, node, text = source
     edits, changed = [], {}
     for _, name, default in _defaults(node):
         try:
@@ -193,10 +193,10 @@ def as_defaults(model: Model[..., Any], arguments: Mapping[str, Any]) -> SourceC
 def _source(model: Any) -> tuple[SourceFile, ast.FunctionDef | ast.Lambda, str] | None:
     """The file of a model, its function there and the text; None for a file of Niwaki, or a changed file."""
     function = getattr(model, "function", None)
-    found = None if function is None else find_function(function)
-    if found is None:
+    definition = None if function is None else find_function(function)
+    if definition is None:
         return None
-    file, node = found
+    file, node = definition
     path = Path(file.path)
     if not path.is_file() or Path(niwaki.__file__).parent in path.resolve().parents:
         return None

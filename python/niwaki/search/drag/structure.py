@@ -41,7 +41,7 @@ def _tried(held: Held) -> list[tuple[str, Any]]:
     deciding = {*parts.deciding(call), call}
     choices = [c for c in held.start.trace.choices if c.path.rpartition("/")[0] in deciding]
     free = [choice for choice in reversed(choices) if choice.path not in held.holds]
-    return [(choice.path, value) for choice in free for value in _others(choice)][:TRIED]
+    return [(choice.path, value) for choice in free for value in _alternatives(choice)][:TRIED]
 
 
 def _near(held: Held, goal: Vector, state: State) -> list[tuple[float, State]]:
@@ -55,7 +55,7 @@ def _near(held: Held, goal: Vector, state: State) -> list[tuple[float, State]]:
     return states
 
 
-def _others(choice: _engine.Choice) -> list[Any]:
+def _alternatives(choice: _engine.Choice) -> list[Any]:
     """Other values of a discrete choice, near ones first; outside of its support a run is impossible."""
     if isinstance(choice.value, bool):
         return [not choice.value]

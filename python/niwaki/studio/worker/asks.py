@@ -45,7 +45,7 @@ def search(question: Question) -> tuple[ModelReference, dict[str, Any]]:
         options |= _sketch_options(ask, ask.sketch)
     elif ask.target is not None and ask.target != usual(model):
         options["target"] = placed(ask.target)
-    goals = model.asked(options)
+    goals = model.terms(options)
     guide = shipped(model.model) if model.style is not None and "camera" not in options else None
     return model, {
         "score": targets.asks.score(goals),

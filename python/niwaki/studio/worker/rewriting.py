@@ -15,7 +15,7 @@ _offers: list[SourceChange] = []
 def offer(changes: list[SourceChange]) -> list[Offer]:
     """Offer these changes, and withdraw all earlier offers."""
     _offers[:] = changes
-    return [Offer(change.says, change.difference(), not change.choices) for change in changes]
+    return [Offer(change.description, change.difference(), not change.choices) for change in changes]
 
 
 def propose(job: ProposeDefaults, send: Any) -> Answer:

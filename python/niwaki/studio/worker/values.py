@@ -24,7 +24,7 @@ from niwaki.studio.worker import jobs, models, permissions, runs
 def grow(job: GrowValues, send: Any, check: Callable[[], None]) -> Answer:
     """Search for results that differ."""
     model = models.reference(job.model)
-    goals = model.asked(Reader().table(job.options))
+    goals = model.terms(Reader().table(job.options))
     result = nw.grow(
         model.model,
         score=targets.asks.score(goals),

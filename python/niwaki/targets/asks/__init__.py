@@ -231,13 +231,13 @@ def flag(name: str) -> str:
     return f"--{name.replace('_', '-')}"
 
 
-def _check(given: Mapping[str, Any], sketches: set[str]) -> None:
+def _check(options: Mapping[str, Any], sketches: set[str]) -> None:
     """Refuse options that need an absent option."""
     for key, option in OPTIONS.items():
         known = set(parameters(key))
-        if key in given and option.alone and (not known & sketches or option.beside not in {"", *given}):
+        if key in options and option.alone and (not known & sketches or option.beside not in {"", *options}):
             raise _alone(key, [option.beside] if option.beside else _asking(known), option.alone)
-        for sketch in known & sketches if option.needed and key not in given else ():
+        for sketch in known & sketches if option.needed and key not in options else ():
             if _parameters(sketch)[key].default is inspect.Parameter.empty:
                 raise _alone(_asking([sketch])[0], [key], option.needed)
 
@@ -251,8 +251,8 @@ def _asking(sketches: Iterable[str]) -> list[str]:
     return [key for key, option in OPTIONS.items() if {*option.asks} & {*sketches}]
 
 
-def _alone(name: str, others: list[str], reason: str) -> InputError:
-    other = " or ".join(f"`{flag(key)}`" for key in others)
+def _alone(name: str, keys: list[str], reason: str) -> InputError:
+    other = " or ".join(f"`{flag(key)}`" for key in keys)
     return InputError("flag-alone", flag=flag(name), other=other, reason=reason)
 
 
