@@ -29,6 +29,8 @@ FITS: dict[str, Any] = {
 }
 #: Required arguments of words for which `FITS` has none.
 REQUIRED: dict[str, dict[str, Any]] = {
+    "torus": {"radius": 1.0},
+    "arch": {"thickness": 0.2},
     "limb": {"start": (0, 0, 0), "end": (0, 1, 0)},
     "segment": {"start": FRAME, "split": UPPER, "end": TOP},
     "mesh": {
@@ -37,7 +39,14 @@ REQUIRED: dict[str, dict[str, Any]] = {
     },
 }
 #: Letters have another message, and in plain Python NumPy reads meshes.
-EXCEPTIONS = {("box", "taper_axis"), ("cylinder", "axis"), ("mesh", "vertices"), ("mesh", "faces")}
+EXCEPTIONS = {
+    ("box", "taper_axis"),
+    ("cylinder", "axis"),
+    ("cone", "axis"),
+    ("torus", "axis"),
+    ("mesh", "vertices"),
+    ("mesh", "faces"),
+}
 
 
 def cases() -> list[tuple[Any, str]]:

@@ -13,7 +13,8 @@ FOLDER = ROOT / "docs" / "errors"
 #: Where the engine and the package name the code of an error.
 RAISED = re.compile(
     r"""(?:Fault|GeomError)::new\(\s*"([a-z-]+)"|^\s+\w+ = "([a-z-]+)";|"code", "([a-z-]+)"|"""
-    r"""(?:Error|ModelFault|from_engine)\(\s*"([a-z]+(?:-[a-z]+)+)\"""",
+    # Not the studio's own `CommandError`, whose codes have no pages.
+    r"""(?:(?<!Command)Error|ModelFault|from_engine)\(\s*"([a-z]+(?:-[a-z]+)+)\"""",
     re.MULTILINE,
 )
 

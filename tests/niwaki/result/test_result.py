@@ -211,7 +211,7 @@ def test_the_statistics_of_a_method_are_attributes_of_the_result() -> None:
     with pytest.raises(AttributeError, match="a result of `mh` has no `step_size`"):
         _ = chains.step_size
     weighted = nw.run(pair, method=METHODS["importance"], seed=1)
-    with pytest.raises(nw.InputError, match="samples that weigh the same"):
+    with pytest.raises(nw.InputError, match="samples of equal weight"):
         weighted.summary()
     with pytest.raises(nw.InputError, match="whose chains can go on"):
         weighted.more(10)

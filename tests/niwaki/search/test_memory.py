@@ -361,7 +361,7 @@ def nested(depth):
 def test_what_made_a_search_impossible_is_told_without_running_on():
     """The run died at its second part; it would never end."""
     start = time.process_time()
-    with pytest.raises(InputError, match="runs into another one") as met:
+    with pytest.raises(InputError, match="runs into another part") as met:
         nw.run(endless_pile, method=nw.smc(2), score=nw.no_self_intersection(), seed=1)
     assert "barrier 2" in str(met.value)
     assert time.process_time() - start < 20.0

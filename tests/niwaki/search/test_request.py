@@ -256,7 +256,7 @@ def test_a_host_function_is_found_only_where_it_is_trusted():
         nw.Search.of_json(other, trust=(__name__,))
     edited = search.data()
     edited["model"]["constants"][0]["host"]["sha256"] = "0" * 64
-    with pytest.raises(nw.InputError, match="another than it was"):
+    with pytest.raises(nw.InputError, match="or it has changed"):
         nw.Search.of_data(edited, trust=(__name__,))
 
 

@@ -124,7 +124,7 @@ def test_a_default_that_explains_a_drag_is_written_when_accepted(connected, pile
     first = outcome["offers"][0]
     assert first["label"] == "line 7: 3.0 becomes 3.5"
     assert pile.read_text() == text
-    with pytest.raises(studio.StudioError, match="has not offered"):
+    with pytest.raises(studio.StudioError, match="did not offer"):
         connected.ask("rewrite", difference="---")
     connected.ask("rewrite", difference=first["difference"])
     assert pile.read_text() == text.replace("height: float = 3.0", "height: float = 3.5")

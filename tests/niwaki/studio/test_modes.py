@@ -110,7 +110,7 @@ def test_contradictory_rules_are_refused(connected):
     assert [report["kind"] for report in described(connected)["rules"]] == ["lighter", "muted"]
     rules["rules"].append({"kind": "lighter", "regions": ["body", "face"]})
     connected.ask("ask", ask={"rules": rules})
-    with pytest.raises(studio.StudioError, match="cannot hold together"):
+    with pytest.raises(studio.StudioError, match="contradict each other"):
         connected.ask("run")
 
 

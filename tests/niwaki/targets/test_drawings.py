@@ -87,7 +87,7 @@ def test_a_page_of_two_colours_is_dark_ink_too(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("value", [0, 255, 252])
 def test_a_page_of_one_colour_is_refused(value: int) -> None:
-    with pytest.raises(InputError, match="one colour only") as error:
+    with pytest.raises(InputError, match="has only one colour") as error:
         images.ink(np.full((5, 5), value, dtype=np.uint8))
     assert error.value.code == "drawing-one-color"
 
