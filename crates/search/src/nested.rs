@@ -330,7 +330,7 @@ mod tests {
         let p = posterior();
         let error = 4.9 * (p * (1.0 - p) / SEEDS as f64).sqrt();
         let smc = |more: &str| {
-            let plain = r#""populations": null, "diverse": null, "seconds": null, "moves": 2, "at": "end", "chains": 1,
+            let plain = r#""populations": null, "diverse": null, "seconds": null, "chains": 1,
                 "order": "stochastic", "weights": "ratio", "power": 1, "resampling": "residual", "ess": 0.5"#;
             format!(r#"{{"method": "smc", {plain}, {more}}}"#)
         };
@@ -342,9 +342,9 @@ mod tests {
         let methods = [
             r#"{"method": "rejection", "n": 3, "bound": 0.0, "max_tries": 1000}"#.to_string(),
             r#"{"method": "importance", "n": 200}"#.to_string(),
-            smc(r#""particles": 200, "rejuvenate": null, "draws": null, "anneal": null"#),
-            smc(r#""particles": [150, 150], "rejuvenate": null, "draws": null, "anneal": [0.5, 1]"#),
-            smc(r#""particles": 200, "rejuvenate": {"name": "prior"}, "draws": 4, "anneal": null"#),
+            smc(r#""particles": 200, "rejuvenate": null, "moves": 1, "at": 1, "draws": null, "anneal": null"#),
+            smc(r#""particles": [150, 150], "rejuvenate": null, "moves": 1, "at": 1, "draws": null, "anneal": [0.5, 1]"#),
+            smc(r#""particles": 200, "rejuvenate": {"name": "prior"}, "moves": 2, "at": "end", "draws": 4, "anneal": null"#),
             mh("null", 10),
             mh(r#"{"name": "repeat", "settings": {"times": 2}, "parts": [{"name": "by_family"}, {"name": "prior"}]}"#, 0)
                 .replace(r#", {"name": "prior"}"#, ""),

@@ -63,12 +63,3 @@ fn final_chains_end_where_whoever_watches_says() {
     let run = run.unwrap();
     assert!(run.interrupted && run.particles.len() < 40 && run.particles.len() >= 2);
 }
-
-#[test]
-fn final_chains_of_no_state_are_refused() {
-    let task = task(PROGRAMS[0].1);
-    for (chains, draws) in [(0, 1), (1, 0)] {
-        let settings = following(Kernel::PRIOR, 1, chains, draws, Moment::End);
-        assert!(smc(&task, &settings, &mut |_| true).is_err());
-    }
-}
