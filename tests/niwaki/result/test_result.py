@@ -213,5 +213,5 @@ def test_the_statistics_of_a_method_are_attributes_of_the_result() -> None:
     weighted = nw.run(pair, method=METHODS["importance"], seed=1)
     with pytest.raises(nw.InputError, match="samples of equal weight"):
         weighted.summary()
-    with pytest.raises(nw.InputError, match="whose chains can go on"):
+    with pytest.raises(nw.InputError, match="whose chains can continue"):
         weighted.more(10)
