@@ -7,7 +7,7 @@ use arbitrary::Unstructured;
 use niwaki_geom::Mat3;
 use niwaki_vm::builtins::builtins;
 use niwaki_vm::fault::Fault;
-use niwaki_vm::value::{Class, ClassKind, Dict, Range, Record, Value, equal, order, repr, identical, str_of};
+use niwaki_vm::value::{Class, ClassKind, Dict, Range, Record, Value, equal, identical, order, repr, str_of};
 use std::sync::Arc;
 
 /// Whole numbers that count elements are seldom larger: a list of 2^26 elements takes a second.
