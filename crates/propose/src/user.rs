@@ -67,7 +67,7 @@ impl User {
     }
 
     /// The variables that the function needs. A program must be compiled to keep them
-    /// ([`compile_keeping`](niwaki_vm::passes::compile_keeping)).
+    /// ([`compile_with_scope`](niwaki_vm::passes::compile_with_scope)).
     pub fn variables(&self) -> impl Iterator<Item = &Name> {
         self.parameters().iter().filter(|name| &***name != OLD)
     }

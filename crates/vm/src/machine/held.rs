@@ -35,19 +35,18 @@ impl Held {
     /// The first address that no run of the program can have.
     pub fn new(program: &Program, choices: Vec<(String, Value)>) -> Result<Held, String> {
         let (mut numbers, mut below, mut outside_futures) = (HashMap::new(), HashMap::new(), HashMap::new());
-        let mut addresses = Addresses::new(program);
         for (number, (path, _)) in (0..).zip(&choices) {
-            let found = addresses.find(path);
-            if found.is_empty() {
+            let candidates = addresses(program, path);
+            if candidates.is_empty() {
                 return Err(path.clone());
             }
-            for (path, is_outside_futures) in addresses.common(&found) {
+            for (path, is_outside_futures) in common(&candidates) {
                 below.entry(path).or_insert_with(Vec::new).push(number);
                 if is_outside_futures {
                     outside_futures.entry(path).or_insert_with(Vec::new).push(number);
                 }
             }
-            numbers.extend(found.into_iter().map(|(address, _)| (address, number)));
+            numbers.extend(candidates.into_iter().map(|candidate| (candidate.address, number)));
         }
         Ok(Held { choices, numbers, below, outside_futures })
     }
@@ -95,167 +94,115 @@ impl<S: Scalar> Held<S> {
     }
 }
 
-/// An activation that an address leads into.
+/// An address that a choice may have, and the activations around the choice.
+struct Candidate {
+    address: u128,
+    inside: Vec<Enclosing>,
+}
+
+/// An activation: its path, and whether it is a future, which may begin later than its call.
 #[derive(Clone, Copy)]
-struct Activation {
+struct Enclosing {
     path: u128,
-    /// Its function; `None` where a value was called, so that it may be any.
-    function: Option<FunctionId>,
-    /// Whether it may begin later than where it is called, as a future.
     is_future: bool,
-    /// The number of the activation around it.
-    parent: Option<usize>,
 }
 
-/// The activations that readable addresses lead into. Addresses with a common beginning share the search for it.
-struct Addresses<'p> {
-    program: &'p Program,
-    activations: Vec<Activation>,
-    /// The activations of each address, by number: several where different functions may be called at one place.
-    numbers: HashMap<&'p str, Vec<usize>>,
-    /// Memoised functions of modules, which belong to no activation, each with its name in addresses.
-    of_modules: Vec<(u128, &'p str)>,
+/// The activations around all of these addresses. For each, whether it lasts until the choice is met: no future
+/// is between them.
+fn common(candidates: &[Candidate]) -> Vec<(u128, bool)> {
+    let Some((first, rest)) = candidates.split_first() else { return vec![] };
+    let mut all = vec![];
+    let mut is_outside_futures = true;
+    for Enclosing { path, is_future } in first.inside.iter().rev() {
+        if rest.iter().all(|other| other.inside.iter().any(|enclosing| enclosing.path == *path)) {
+            all.push((*path, is_outside_futures));
+        }
+        is_outside_futures &= !is_future;
+    }
+    all
 }
 
-impl<'p> Addresses<'p> {
-    fn new(program: &'p Program) -> Addresses<'p> {
-        let root = Activation { path: ROOT, function: Some(program.entry), is_future: true, parent: None };
-        let sites = program.functions.iter().flat_map(|f| &f.sites);
-        let of_modules = sites.filter_map(|site| match site.kind {
-            SiteKind::Memoise { of } => Some((of?, &*site.label)),
-            _ => None,
-        });
-        Addresses {
-            program,
-            activations: vec![root],
-            numbers: HashMap::from([("", vec![0])]),
-            of_modules: of_modules.collect(),
-        }
-    }
+/// The ways in which a readable address may continue: the activations so far, the function of the last one, and
+/// the rest of the text. The function is `None` after a call of a value, which may be any function.
+struct Prefix<'a> {
+    inside: Vec<Enclosing>,
+    function: Option<FunctionId>,
+    rest: &'a str,
+}
 
-    /// The addresses that choices with this readable address may have, each with its activation: several, too, where a
-    /// function gives one name to several choices.
-    fn find(&mut self, path: &'p str) -> Vec<(u128, usize)> {
-        let (above, label) = split(path);
-        // No component is empty; the empty beginning is the root.
-        if path.starts_with('/') {
-            return vec![];
-        }
-        self.enter(above);
-        let mut found = Vec::new();
-        for number in &self.numbers[above] {
-            for site in self.sites(*number) {
-                if matches!(site.kind, SiteKind::Sample(_)) && *site.label == *label {
-                    found.push((join(self.activations[*number].path, site.key), *number));
-                }
-            }
-        }
-        found.sort_unstable();
-        found.dedup_by_key(|(address, _)| *address);
-        found
-    }
-
-    /// The sites of an activation.
-    fn sites(&self, number: usize) -> impl Iterator<Item = &'p Site> + use<'p> {
-        let functions = match self.activations[number].function {
-            Some(id) => std::slice::from_ref(self.program.function(id)),
-            None => &self.program.functions[..],
+/// The addresses of choices that may have this readable address. There are several if different functions may
+/// be called at one place, or if a function gives one name to several choices.
+fn addresses(program: &Program, path: &str) -> Vec<Candidate> {
+    let mut candidates = Vec::new();
+    let root = Enclosing { path: ROOT, is_future: true };
+    let mut prefixes = vec![Prefix { inside: vec![root], function: Some(program.entry), rest: path }];
+    // Memoised functions of modules do not belong to an activation.
+    let sites = program.functions.iter().flat_map(|f| &f.sites);
+    let of_module = sites.flat_map(|site| match site.kind {
+        SiteKind::Memoise { of: Some(of) } => memoised_calls(program, of, &site.label, &prefixes[0]),
+        _ => vec![],
+    });
+    let of_module: Vec<Prefix<'_>> = of_module.collect();
+    prefixes.extend(of_module);
+    while let Some(prefix) = prefixes.pop() {
+        let functions = match &prefix.function {
+            Some(id) => std::slice::from_ref(program.function(*id)),
+            None => &program.functions[..],
         };
-        functions.iter().flat_map(|f| &f.sites)
-    }
-
-    /// Finds the activations of a readable address, component by component from the longest beginning that is known.
-    fn enter(&mut self, path: &'p str) {
-        let mut begin = path;
-        while !self.numbers.contains_key(begin) {
-            begin = split(begin).0;
-        }
-        while begin.len() < path.len() {
-            let start = if begin.is_empty() { 0 } else { begin.len() + 1 };
-            let end = path[start..].find('/').map_or(path.len(), |length| start + length);
-            let component = &path[start..end];
-            let mut numbers = Vec::new();
-            for parent in self.numbers[begin].clone() {
-                let of_modules = if begin.is_empty() { self.of_modules.clone() } else { vec![] };
-                for (place, label) in of_modules {
-                    self.remembered(place, label, component, &mut numbers);
-                }
-                for site in self.sites(parent) {
-                    match site.kind {
-                        SiteKind::Memoise { of: None } => {
-                            let place = join(self.activations[parent].path, site.key);
-                            self.remembered(place, &site.label, component, &mut numbers);
-                        }
-                        _ => numbers.extend(self.below(parent, site, component)),
-                    }
-                }
+        for site in functions.iter().flat_map(|f| &f.sites) {
+            if matches!(site.kind, SiteKind::Sample(_)) && *site.label == *prefix.rest {
+                let address = join(prefix.path(), site.key);
+                candidates.push(Candidate { address, inside: prefix.inside.clone() });
             }
-            begin = &path[..end];
-            self.numbers.insert(begin, numbers);
-        }
-    }
-
-    /// Adds the calls of a memoised function, if they are called so: `color(3)`. Which function was memoised at that place is not
-    /// known.
-    fn remembered(&mut self, place: u128, label: &str, component: &str, numbers: &mut Vec<usize>) {
-        let Some(text) = component.strip_prefix(label).filter(|text| text.starts_with('(')) else { return };
-        for function in (0..self.program.functions.len()).map(|number| FunctionId(number as u32)) {
-            // It lasts as long as somebody may ask for it; what is inside of it is met before it is left.
-            let path = path_of(identity(place, self.program, function), text);
-            let function = Some(function);
-            numbers.push(self.add(Activation { path, function, is_future: true, parent: Some(0) }));
-        }
-    }
-
-    /// Adds the activation below a site, if it is called so.
-    fn below(&mut self, parent: usize, site: &Site, component: &str) -> Option<usize> {
-        let path = join(self.activations[parent].path, site.key);
-        let is_future = matches!(site.kind, SiteKind::Future { .. } | SiteKind::FutureApply { .. });
-        let function = match &site.kind {
-            SiteKind::Call { function } | SiteKind::Future { function, .. } => Some(*function),
-            SiteKind::Apply | SiteKind::FutureApply { .. } => None,
-            SiteKind::Loop(l) => {
-                let (name, behind) = site.label.split_once("[]")?;
-                let number = component.strip_prefix(name)?.strip_prefix('[')?.strip_suffix(behind)?;
-                let iteration = iteration_key(number.strip_suffix(']')?.parse().ok()?);
-                let whole = Activation { path, function: None, is_future: false, parent: Some(parent) };
-                let parent = Some(self.add(whole));
-                let (path, function) = (join(path, iteration), Some(l.body));
-                return Some(self.add(Activation { path, function, is_future: false, parent }));
+            if let SiteKind::Memoise { of: None } = site.kind {
+                prefixes.extend(memoised_calls(program, join(prefix.path(), site.key), &site.label, &prefix));
             }
-            _ => return None,
-        };
-        let parent = Some(parent);
-        (*site.label == *component).then(|| self.add(Activation { path, function, is_future, parent }))
-    }
-
-    fn add(&mut self, activation: Activation) -> usize {
-        self.activations.push(activation);
-        self.activations.len() - 1
-    }
-
-    /// The activations around a place, from the inside out.
-    fn around(&self, number: usize) -> impl Iterator<Item = Activation> {
-        let first = Some(self.activations[number]);
-        std::iter::successors(first, |inner| inner.parent.map(|number| self.activations[number]))
-    }
-
-    /// The paths of the activations that all of these places are in, each with whether it lasts until the choice is met: no
-    /// future is between them.
-    fn common(&self, found: &[(u128, usize)]) -> Vec<(u128, bool)> {
-        let Some(((_, first), others)) = found.split_first() else { return vec![] };
-        let (mut all, mut is_outside_futures) = (vec![], true);
-        for Activation { path, is_future, .. } in self.around(*first) {
-            if others.iter().all(|(_, other)| self.around(*other).any(|around| around.path == path)) {
-                all.push((path, is_outside_futures));
-            }
-            is_outside_futures &= !is_future;
+            prefixes.extend(below(site, &prefix));
         }
-        all
+    }
+    candidates.sort_unstable_by_key(|candidate| candidate.address);
+    candidates.dedup_by_key(|candidate| candidate.address);
+    candidates
+}
+
+impl Prefix<'_> {
+    /// The path of the activation that was entered last.
+    fn path(&self) -> u128 {
+        self.inside.last().map_or(ROOT, |inside| inside.path)
     }
 }
 
-/// The address of the call around a component, and the component.
-fn split(path: &str) -> (&str, &str) {
-    path.rsplit_once('/').unwrap_or(("", path))
+/// The prefixes below a call of a memoised function, if that call is the next component: `color(3)`. Any
+/// function may have been memoised at that place.
+fn memoised_calls<'a>(program: &Program, place: u128, label: &str, prefix: &Prefix<'a>) -> Vec<Prefix<'a>> {
+    let next = prefix.rest.strip_prefix(label).and_then(|text| text.split_once('/'));
+    let Some((text, rest)) = next.filter(|(text, _)| text.starts_with('(')) else { return vec![] };
+    let of = |function: FunctionId| {
+        // The call lasts as long as it may be requested; choices inside of it are met before it is left.
+        let call = Enclosing { path: path_of(identity(place, program, function), text), is_future: true };
+        Prefix { inside: vec![prefix.inside[0], call], function: Some(function), rest }
+    };
+    (0..program.functions.len()).map(|number| of(FunctionId(number as u32))).collect()
+}
+
+/// The prefix below a site, if the next component belongs to the site.
+fn below<'a>(site: &Site, prefix: &Prefix<'a>) -> Option<Prefix<'a>> {
+    let path = join(prefix.path(), site.key);
+    let after = |label: &str, text: &'a str| text.strip_prefix(label)?.strip_prefix('/');
+    let (more, function, rest) = match &site.kind {
+        SiteKind::Call { function } | SiteKind::Future { function, .. } => {
+            (None, Some(*function), after(&site.label, prefix.rest)?)
+        }
+        SiteKind::Apply | SiteKind::FutureApply { .. } => (None, None, after(&site.label, prefix.rest)?),
+        SiteKind::Loop(l) => {
+            let (name, behind) = site.label.split_once("[]")?;
+            let (number, rest) = prefix.rest.strip_prefix(name)?.strip_prefix('[')?.split_once(']')?;
+            let path = join(path, iteration_key(number.parse().ok()?));
+            (Some(Enclosing { path, is_future: false }), Some(l.body), after(behind, rest)?)
+        }
+        _ => return None,
+    };
+    let is_future = matches!(site.kind, SiteKind::Future { .. } | SiteKind::FutureApply { .. });
+    let entered = [Enclosing { path, is_future }].into_iter().chain(more);
+    Some(Prefix { inside: prefix.inside.iter().copied().chain(entered).collect(), function, rest })
 }
