@@ -19,9 +19,9 @@ import tomllib
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+from checkout import ROOT, tracked
+
 TABLE = ROOT / "tests" / "house" / "english.toml"
 FOLDERS = ("python/niwaki", "crates", "tests", "integrations", "benches", "docs")
 
@@ -121,15 +121,15 @@ def page(path: str, text: str) -> Iterator[Fault]:
 READERS = {".py": python, ".rs": rust, ".md": page}
 
 
-def faults(folders: tuple[str, ...] = FOLDERS, root: Path = ROOT) -> list[Fault]:
+def faults(folders: tuple[str, ...] = FOLDERS) -> list[Fault]:
     """All faults of the files in these folders."""
     places: list[Fault] = []
-    for folder in folders:
-        top = root / folder
-        for path in sorted([top] if top.is_file() else top.rglob("*")):
-            name = path.relative_to(root).as_posix()
-            if path.suffix in READERS and "node_modules" not in name and "/target/" not in name:
-                places += READERS[path.suffix](name, path.read_text(encoding="utf-8"))
+    for path in sorted(tracked()):
+        name = path.relative_to(ROOT).as_posix()
+        if path.suffix in READERS and any(
+            f"{name}/".startswith(f"{folder.rstrip('/')}/") for folder in folders
+        ):
+            places += READERS[path.suffix](name, path.read_text(encoding="utf-8"))
     return places
 
 

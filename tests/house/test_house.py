@@ -8,6 +8,7 @@ import tomllib
 from functools import cache
 from pathlib import Path
 
+import checkout
 import pytest
 from packaging.requirements import Requirement
 
@@ -37,13 +38,11 @@ CARGO_INDEX = "registry+https://github.com/rust-lang/" + "crates.io-index"
 
 @cache
 def tracked() -> list[Path]:
-    """Files that git knows, or would take: new ones count before they are committed."""
-    command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
-    try:
-        listed = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
-    except (OSError, subprocess.CalledProcessError):
+    """Files of the checkout; without git the test is skipped."""
+    files = checkout.tracked()
+    if not files:
         pytest.skip("not a git checkout")
-    return [ROOT / name for name in listed.split("\0") if name and (ROOT / name).is_file()]
+    return files
 
 
 def texts() -> list[tuple[str, str]]:

@@ -42,38 +42,24 @@ impl Measured for Ellipsoid {
 
     fn hull(&self, placement: &Placement) -> Option<Coarse> {
         let half = self.size * 0.5;
-        let rings = RINGS.iter().flat_map(|&(height, radius)| {
-            ring(SIDES).map(move |(sin, cos)| vec3(sin * radius, height, cos * radius))
-        });
-        let poles = [-1.0, 1.0].map(|height| vec3(0.0, height, 0.0));
-        let vertices = rings.chain(poles).map(|p| placement.apply(scaled(p, half))).collect();
+        let vertices = points(SIDES, &RINGS).map(|p| placement.apply(scaled(p, half))).collect();
         Hull::new(vertices, topology()).map(Coarse::new)
     }
 
     fn fine(&self, _bevel: Option<f64>) -> FineMesh {
-        let (half, rows) = (self.size * 0.5, ROUND as u32 / 2);
+        let (half, rows) = (self.size * 0.5, ROUND / 2);
         let inverse = vec3(1.0 / half.x, 1.0 / half.y, 1.0 / half.z);
+        let latitude = |row: usize| (PI * (row as f64 / rows as f64 - 0.5)).sin_cos();
+        let rings: Vec<(f64, f64)> = (1..rows).map(latitude).collect();
         let mut mesh = FineMesh::default();
-        let point = |mesh: &mut FineMesh, p: Vec3| {
-            let normal = scaled(p, inverse).unit().unwrap_or(p);
-            mesh.point(scaled(p, half), normal)
-        };
-        let south = point(&mut mesh, vec3(0.0, -1.0, 0.0));
-        for row in 1..rows {
-            let (sin, cos) = (PI * (f64::from(row) / f64::from(rows) - 0.5)).sin_cos();
-            for (across, along) in ring(ROUND) {
-                point(&mut mesh, vec3(across * cos, sin, along * cos));
-            }
+        for p in points(ROUND, &rings) {
+            mesh.point(scaled(p, half), scaled(p, inverse).unit().unwrap_or(p));
         }
-        let north = point(&mut mesh, vec3(0.0, 1.0, 0.0));
-        let number = |row: u32, k: u32| 1 + row * ROUND as u32 + k % ROUND as u32;
-        for k in 0..ROUND as u32 {
-            mesh.face([south, number(0, k + 1), number(0, k)]);
-            for row in 0..rows - 2 {
-                let (low, high) = (number(row, k), number(row + 1, k));
-                mesh.quad([low, number(row, k + 1), number(row + 1, k + 1), high]);
+        for face in faces(ROUND, rings.len()) {
+            match face[..] {
+                [a, b, c, d] => mesh.quad([a, b, c, d]),
+                _ => mesh.face([face[0], face[1], face[2]]),
             }
-            mesh.face([north, number(rows - 2, k), number(rows - 2, k + 1)]);
         }
         mesh
     }
@@ -83,28 +69,37 @@ fn scaled(p: Vec3, factors: Vec3) -> Vec3 {
     vec3(p.x * factors.x, p.y * factors.y, p.z * factors.z)
 }
 
-/// Rings from -y to +y, then the two poles.
+/// Points of the sphere of radius 1: rings from -y to +y, given by height and radius, then the two poles.
+fn points(sides: usize, rings: &[(f64, f64)]) -> impl Iterator<Item = Vec3> + '_ {
+    let around = rings.iter().flat_map(move |&(height, radius)| {
+        ring(sides).map(move |(sin, cos)| vec3(sin * radius, height, cos * radius))
+    });
+    around.chain([-1.0, 1.0].map(|height| vec3(0.0, height, 0.0)))
+}
+
+/// Faces over [`points`]: triangles at the poles, and quadrilaterals.
+fn faces(sides: usize, rings: usize) -> Vec<Vec<u32>> {
+    let number = |ring: usize, k: usize| (ring * sides + k % sides) as u32;
+    let (south, north) = (number(rings, 0), number(rings, 1));
+    let mut faces = Vec::new();
+    for k in 0..sides {
+        faces.push(vec![south, number(0, k + 1), number(0, k)]);
+        for ring in 0..rings - 1 {
+            faces.push(vec![
+                number(ring, k),
+                number(ring, k + 1),
+                number(ring + 1, k + 1),
+                number(ring + 1, k),
+            ]);
+        }
+        faces.push(vec![north, number(rings - 1, k), number(rings - 1, k + 1)]);
+    }
+    faces
+}
+
 fn topology() -> Arc<Topology> {
     static SHARED: OnceLock<Arc<Topology>> = OnceLock::new();
-    let build = || {
-        let (sides, rings) = (SIDES as u32, RINGS.len() as u32);
-        let number = |ring: u32, k: u32| ring * sides + k % sides;
-        let (south, north) = (rings * sides, rings * sides + 1);
-        let mut faces = Vec::new();
-        for k in 0..sides {
-            faces.push(vec![south, number(0, k + 1), number(0, k)]);
-            for ring in 0..rings - 1 {
-                faces.push(vec![
-                    number(ring, k),
-                    number(ring, k + 1),
-                    number(ring + 1, k + 1),
-                    number(ring + 1, k),
-                ]);
-            }
-            faces.push(vec![north, number(rings - 1, k), number(rings - 1, k + 1)]);
-        }
-        Arc::new(Topology::from_faces(north as usize + 1, faces))
-    };
+    let build = || Arc::new(Topology::from_faces(SIDES * RINGS.len() + 2, faces(SIDES, RINGS.len())));
     SHARED.once(build).clone()
 }
 

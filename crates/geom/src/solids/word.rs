@@ -127,10 +127,15 @@ pub fn placed<S: Scalar>(center: [S; 3], laid: Mat3, rotation: Option<[[S; 3]; 3
     Placement { rotation: turn.map_or(laid, |turn| turn.after(&laid)), translation: plain(center) }
 }
 
+/// The rows of a rotation, or of none.
+fn rows<S: Scalar>(rotation: Option<[[S; 3]; 3]>) -> [[S; 3]; 3] {
+    let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    rotation.unwrap_or_else(|| unit.map(|row| row.map(S::from_f64)))
+}
+
 /// The position of a turned solid: the directions of the coordinates times `size`.
 pub fn turned<S: Scalar>(center: [S; 3], rotation: Option<[[S; 3]; 3]>, size: [S; 3]) -> [[S; 3]; 4] {
-    let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let rotation = rotation.unwrap_or_else(|| unit.map(|row| row.map(S::from_f64)));
+    let rotation = rows(rotation);
     let along = |j: usize| [0, 1, 2].map(|i| rotation[i][j] * size[j]);
     [center, along(0), along(1), along(2)]
 }
@@ -142,11 +147,14 @@ pub fn laid_along<S: Scalar>(
     rotation: Option<[[S; 3]; 3]>,
     length: S,
 ) -> [[S; 3]; 4] {
-    let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let norm = axis.iter().fold(S::from_f64(0.0), |sum, x| sum + *x * *x).sqrt();
-    let turn = rotation.unwrap_or_else(|| unit.map(|row| row.map(S::from_f64)));
     let (zero, scale) = ([S::from_f64(0.0); 3], length / norm);
-    [center, zero, turn.map(|row| (row[0] * axis[0] + row[1] * axis[1] + row[2] * axis[2]) * scale), zero]
+    [
+        center,
+        zero,
+        rows(rotation).map(|row| (row[0] * axis[0] + row[1] * axis[1] + row[2] * axis[2]) * scale),
+        zero,
+    ]
 }
 
 /// The position between two points: the middle, and the direction from `start` to `end`.
