@@ -16,6 +16,7 @@ use niwaki_vm::machine::Stop;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::machine::stack::Call;
 use niwaki_vm::machine::state::State;
+use niwaki_vm::machine::words::named;
 use niwaki_vm::value::text::Text;
 use niwaki_vm::value::{Value, equal, hash, identical, repr};
 use std::collections::HashMap;
@@ -40,11 +41,7 @@ pub struct Choice {
 impl Choice {
     /// The value for a person: the word of a number that has one.
     pub fn named_value(&self) -> Value {
-        let word = |words: &Vec<Text>| match self.value {
-            Value::Int(number) => words.get(usize::try_from(number).ok()?).cloned(),
-            _ => None,
-        };
-        self.words.as_ref().and_then(word).map_or_else(|| self.value.clone(), Value::Str)
+        named(&self.value, self.words.as_deref())
     }
 }
 

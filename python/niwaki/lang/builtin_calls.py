@@ -286,7 +286,7 @@ def choose(body: Body, node: ast.Call) -> Expr:
         values, weights = bind(body, node, node.args, node.keywords, parameters, "choose")
     assert values is not None and options is not None
     if not isinstance(options, ast.List | ast.Tuple | ast.Dict) and static(body, options) is MISSING:
-        values = body.form("options", [values], node)
+        values = Form("options", [values], body.span(node))
     values = body.kept(values)
     if weights is None:
         last = Form("sub", [Form("len", [values]), "1"])

@@ -13,6 +13,15 @@ use niwaki_math::Scalar;
 use std::borrow::Cow;
 use std::collections::HashSet;
 
+/// The value of a choice for a person: the word of a number that has one.
+pub fn named<S: Scalar>(value: &Value<S>, words: Option<&[Text]>) -> Value<S> {
+    match (value, words) {
+        (Value::Int(number), Some(words)) => usize::try_from(*number).ok().and_then(|at| words.get(at)),
+        _ => None,
+    }
+    .map_or_else(|| value.clone(), |word| Value::Str(word.clone()))
+}
+
 /// The most options that a message lists.
 const LISTED: usize = 12;
 
