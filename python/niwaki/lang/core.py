@@ -13,11 +13,12 @@ Grammar (each `(HEAD ...)` may carry a span atom right after its head, `@L:C-L:C
              | (break) | (continue) | (return E) | (do E) | (assert E E)
     E       := ATOM | $v | (data K) | (and E E+) | (or E E+) | (cond C A B)
              | (call "NAME" E ...) | (closure "NAME" E ...) | (apply E E ...)
-             | (sample E) | (observe E E) | (factor E) | (condition E) | (query E E) | (emit E ...) | (force E)
+             | (sample E OPTIONS?) | (observe E E) | (factor E) | (condition E) | (query E E) | (emit E ...) | (force E)
              | (future "NAME" E ...) | (future_apply E E ...) | (mem E) | (mem E "NAME")
              | (dist FAMILY E ...) | (host K E ...) | (record K E ...) | (field E "name")
              | (list E ...) | (tuple E ...) | (dict (KEY ...) E ...) | (fstr PART ...) | (method E "name" E ...)
              | (OP E ...)
+    OPTIONS := E                                      the list of which the choice draws a place
     PART    := STRING | (format E "spec" "conversion")
     ATOM    := integer | float | inf | -inf | nan | true | false | none | JSON string | (data K) | $v (a capture)
     (data K) and (host K) refer to the table of constants that is passed with the text (`Core.constants`).

@@ -25,7 +25,7 @@ from __future__ import annotations
 import ast
 import re
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from types import FunctionType, ModuleType
 from typing import Any
 
@@ -126,7 +126,7 @@ class _Namer:
         elif value is words.sample:
             self.label(node, "end", self.target or self.family(node.args[0] if node.args else None))
         elif value is words.choose:
-            weighted = len(node.args) > 1 or bool(node.keywords)
+            weighted = len(node.args) > 1 or bool(node.keywords) or self.is_table(node.args)
             self.label(node, "end", self.target or ("categorical" if weighted else "discrete_uniform"))
         elif value is words.emit:
             self.label(node, "end", part_name(node) or "emit")
@@ -145,6 +145,10 @@ class _Namer:
             self.labels[(node, "call")] = self.callee(function) if function is not None else "apply"
         elif self.is_site(node.func, value):
             self.label(node, "call", self.callee(node.func))
+
+    def is_table(self, args: Sequence[ast.expr]) -> bool:
+        """Return whether the first argument is a dict, as far as the text shows."""
+        return bool(args) and (isinstance(args[0], ast.Dict) or isinstance(self.meaning(args[0]), dict))
 
     def is_site(self, node: ast.expr, value: Any) -> bool:
         """Return whether a call runs the user's code: a built-in, a word that computes or a record's class does not."""

@@ -319,13 +319,28 @@ class Result(Sequence[Sample]):
         places = np.searchsorted(ends, (np.arange(n) + first) / n * ends[-1], side="right")
         return [self.samples[int(place)] for place in np.minimum(places, len(ends) - 1)]
 
-    def distribution(self) -> dict[Any, float]:
+    def distribution(self, choice: str | None = None) -> dict[Any, float]:
         """The probability of each value: exact for enumeration, else weighted shares of the samples.
 
+        Parameters
+        ----------
+        choice
+            The address of a choice, for the values of this choice, words of `choose` as words; `None` stands for runs
+            without the choice. The default is the value that the model returned.
+
+        Raises
+        ------
+        InputError
+            `no-address`: no sample has the choice; `no-runs`: an enumeration keeps the returned values alone.
+
+        Notes
+        -----
         The `repr` replaces values that cannot be keys of a dict, and different values that Python holds for equal:
         `True` and `1`, `0.0` and `-0.0`.
         """
-        if isinstance(self.info, EnumerationInfo):
+        if choice is not None:
+            rows = self._values_of(choice)
+        elif isinstance(self.info, EnumerationInfo):
             total = self.log_evidence or 0.0
             rows = [(value, math.exp(log - total)) for value, log in self.info.table]
         else:
@@ -342,6 +357,19 @@ class Result(Sequence[Sample]):
             (value if _can_be_key(value) and names[value] == 1 else name): shares[name]
             for name, value in values.items()
         }
+
+    def _values_of(self, choice: str) -> list[tuple[Any, float]]:
+        """The values of a choice in all possible samples, with their weights."""
+        if not self.samples:
+            raise InputError("no-runs", detail=repr(self))
+        possible = [(s, float(w)) for s, w in zip(self.samples, self.weights, strict=True) if w > 0.0]
+        if not any(choice in sample.choices for sample, _ in possible):
+            known = [*dict.fromkeys(address for sample, _ in possible for address in sample.choices)]
+            nearest = ", ".join(f"`{address}`" for address in _engine.nearest(choice, known))
+            raise InputError(
+                "no-address", pattern=choice, name=self.model.name, nearest=nearest or "none: it has no choice"
+            )
+        return [(sample.choices.get(choice), weight) for sample, weight in possible]
 
     def export(
         self, path: str | PathLike[str], *, scale: float | None = None, fuse: float | None = None
@@ -419,8 +447,11 @@ class Result(Sequence[Sample]):
 
 
 def _columns(chain: Sequence[Sample]) -> dict[str, NDArray[Any]]:
-    """The choices that all of these samples have, where their values are numbers: (draws,) or (draws, n)."""
-    rows = [sample.choices for sample in chain]
+    """The choices that all of these samples have, where their values are numbers: (draws,) or (draws, n).
+
+    A word is the place that it has among its options.
+    """
+    rows = [sample.places for sample in chain]
     columns: dict[str, NDArray[Any]] = {}
     for address in rows[0] if rows else ():
         if all(address in row for row in rows):

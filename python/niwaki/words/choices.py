@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import Any, ParamSpec, TypeVar
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, ParamSpec, TypeVar, overload
 
 from niwaki.words import distributions as d
 from niwaki.words.running import runner
@@ -37,16 +37,33 @@ def sample(dist: d.Distribution) -> Any:
     return runner("sample").sample(dist)
 
 
-def choose(values: Sequence[T], weights: Sequence[float] | None = None) -> T:
+@overload
+def choose(values: Mapping[T, float]) -> T: ...
+@overload
+def choose(values: Sequence[T], weights: Sequence[float] | None = None) -> T: ...
+def choose(values: Any, weights: Any = None) -> Any:
     """Choose one of `values`, all equally likely or with probability proportional to weights.
+
+    Where the values are distinct strings, the choice is recorded as one of these words; else as the place of the value.
 
     Parameters
     ----------
     values
-        A list or tuple of values, not empty.
+        A list or tuple of values, not empty; or a dict of values with their weights, written at the call or a constant
+        of the module.
     weights
         The weight of each value; by default all are equal.
     """
+    if isinstance(values, Mapping):
+        if weights is not None:
+            raise TypeError("`choose` got weights twice: in the dict, and in `weights`")
+        values, weights = list(values), list(values.values())
     dist = d.DiscreteUniform(0, len(values) - 1) if weights is None else d.Categorical(weights)
-    index: int = runner("choose").sample(dist)
-    return values[index]
+    return values[runner("choose").sample(dist, words_of(values))]
+
+
+def words_of(values: Any) -> Sequence[str] | None:
+    """Return the options of a choice if these are distinct strings, which name their places; else None."""
+    if not isinstance(values, list | tuple) or not values or not all(isinstance(x, str) for x in values):
+        return None
+    return values if len(set(values)) == len(values) else None

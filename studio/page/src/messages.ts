@@ -364,11 +364,12 @@ export interface Patch {
   changes: Record<string, any>;
 }
 
-/** A choice of a result: its value, and the range of its slider if it has a slider. */
+/** A choice of a result: its value; its options if they are words, else the range of its slider if it has one. */
 export interface ChoiceInfo {
   address: string;
   family: string;
   value: any;
+  options: string[];
   low: number | null;
   high: number | null;
   is_whole: boolean;

@@ -68,11 +68,12 @@ class ModelInfo(Struct):
 
 
 class ChoiceInfo(Struct):
-    """A choice of a result: its value, and the range of its slider if it has a slider."""
+    """A choice of a result: its value; its options if they are words, else the range of its slider if it has one."""
 
     address: str
     family: str
     value: Any
+    options: list[str] = []
     low: float | None = None
     high: float | None = None
     is_whole: bool = False

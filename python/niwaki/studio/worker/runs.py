@@ -95,7 +95,7 @@ def hold(job: Hold) -> Answer:
 def describe(job: DescribeRun, send: Any) -> Answer:
     """Send the choices and parts of a result, with their places in the source."""
     result = sample(job.source, job.number)
-    choices, families = result.choices, result.families
+    choices, families, options = result.choices, result.families, result.options
     try:
         model = models.reference(job.question.model).model
         recorder = record(model, asks.arguments(job.question), choices)
@@ -106,13 +106,15 @@ def describe(job: DescribeRun, send: Any) -> Answer:
     for address, value in choices.items():
         if families[address] == "delta":
             continue
-        reach = slider(recorder.distributions.get(address), value)
+        named = list(options.get(address, ()))
+        reach = None if named else slider(recorder.distributions.get(address), value)
         low, high, whole = reach or (None, None, False)
         infos.append(
             ChoiceInfo(
                 address,
                 families[address],
                 shown(value),
+                named,
                 low,
                 high,
                 whole,

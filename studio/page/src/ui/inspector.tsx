@@ -149,7 +149,7 @@ function Choice({ choice }: { choice: ChoiceInfo }) {
   const [moving, setMoving] = useState<number | null>(null);
   const isBoolean = typeof choice.value === "boolean";
   const isHeld = store.heldParts.value.has(choice.address);
-  const set = (value: number | boolean, phase: "move" | "end") =>
+  const set = (value: number | boolean | string, phase: "move" | "end") =>
     void store.tell({ kind: "choose", address: choice.address, value, phase });
   const step = choice.is_whole ? 1 : ((choice.high ?? 1) - (choice.low ?? 0)) / 200;
   const where = choice.place === null ? "" : `, line ${choice.place.line}`;
@@ -163,6 +163,12 @@ function Choice({ choice }: { choice: ChoiceInfo }) {
             checked={choice.value}
             onChange={(event) => set(event.currentTarget.checked, "end")}
           />
+        ) : choice.options.length > 0 ? (
+          <select value={choice.value} onChange={(event) => set(event.currentTarget.value, "end")}>
+            {choice.options.map((option) => (
+              <option key={option}>{option}</option>
+            ))}
+          </select>
         ) : choice.low === null ? null : (
           <Field
             type="range"
@@ -180,7 +186,7 @@ function Choice({ choice }: { choice: ChoiceInfo }) {
             }}
           />
         )}
-        <output>{shown(moving ?? choice.value)}</output>
+        {choice.options.length === 0 && <output>{shown(moving ?? choice.value)}</output>}
       </label>
       <button
         class="icon-button tiny"
