@@ -74,6 +74,11 @@ pub enum Step {
 }
 
 impl Step {
+    /// `solid`, or the operator in the language.
+    pub fn sign(self) -> &'static str {
+        self.operation().map_or("solid", Operation::sign)
+    }
+
     fn operation(self) -> Option<Operation> {
         match self {
             Step::Solid => None,
@@ -194,7 +199,7 @@ impl Cut {
     }
 
     /// True if pictures show the faces of a leaf.
-    fn shows(&self, leaf: usize) -> bool {
+    pub(crate) fn shows(&self, leaf: usize) -> bool {
         self.shown.as_ref().is_none_or(|shown| shown.contains(&leaf))
     }
 

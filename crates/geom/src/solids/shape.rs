@@ -206,6 +206,11 @@ impl Shape {
         }
     }
 
+    /// The places among its [`Shape::leaves`] of the solids whose faces pictures show.
+    pub fn shown(&self) -> Vec<usize> {
+        (0..self.leaves().len()).filter(|leaf| self.cut().is_none_or(|cut| cut.shows(*leaf))).collect()
+    }
+
     /// The look, without the rotation, which is in the placement.
     fn look(&self) -> Look {
         Look {
@@ -337,7 +342,7 @@ impl Shape {
     }
 
     /// [`Shape::fine_mesh`], with sharp edges unless the shape has a bevel of its own.
-    pub(crate) fn sharp_mesh(&self) -> FineMesh {
+    pub fn sharp_mesh(&self) -> FineMesh {
         self.bevelled(Some(self.bevel().unwrap_or(0.0)))
     }
 
