@@ -12,6 +12,7 @@ pub mod word;
 
 pub mod arch;
 pub mod cuboid;
+pub mod cut;
 pub mod cylinder;
 pub mod ellipse;
 pub mod ellipsoid;
@@ -31,6 +32,7 @@ pub mod words;
 
 use crate::bounds::Aabb;
 use crate::convex::Coarse;
+use crate::cut::Cut;
 use crate::error::GeomError;
 use crate::fine::FineMesh;
 use crate::mesh::TriMesh;
@@ -166,6 +168,8 @@ solids! {
     Torus(Torus) [torus::TorusWord];
     /// A half ring on two legs.
     Arch(Arch) [arch::ArchWord];
+    /// A solid cut from others, by operators.
+    Cut(Arc<Cut>);
 }
 
 impl Solid {
