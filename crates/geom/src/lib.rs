@@ -4,6 +4,7 @@
 //! - [`placement`], [`ring`], [`tube`], [`look`]: the measures of a shape, and what else is given of it
 //! - [`mesh`], [`topology`], [`polytope`], [`hull`], [`limb`], [`segment`], [`convex`]: surfaces and convex solids
 //! - [`solids`]: every kind of solid, a file each, and the shapes that a model emits
+//! - [`polygon`]: sections of solids
 //! - [`plane`]: flat shapes, and which pixels of a page they cover
 //! - [`cut`]: solids cut from other solids
 //! - [`voxel`]: which cells of a grid a shape fills
@@ -32,6 +33,7 @@ pub mod mesh;
 mod once;
 pub mod placement;
 pub mod plane;
+pub mod polygon;
 pub mod polytope;
 pub mod ring;
 pub mod segment;
