@@ -16,6 +16,8 @@ from niwaki.errors.settings import MAX_MEMORY, MAX_STEPS, bad, count, refused
 from niwaki.lang import vocabulary
 from niwaki.lang.blame import Blame, marked
 from niwaki.lang.core import Core
+from niwaki.lang.labelling import labels_of
+from niwaki.lang.labels import Labels
 from niwaki.lang.lower import lower
 from niwaki.lang.marks import Marked, P, T
 
@@ -29,6 +31,7 @@ class Compiled(Marked[P, T]):
         super().__init__(function)
         self._core: Core | None = None
         self._program: _engine.Program | None = None
+        self._labels: Labels | None = None
 
     def core(self) -> Core:
         """Return the model in core form."""
@@ -41,6 +44,13 @@ class Compiled(Marked[P, T]):
         if self._program is None:
             self._program = compile_core(self.core())
         return self._program
+
+    @property
+    def labels(self) -> Labels:
+        """The labels of choices and parts by address; without the source of the model, the words of addresses."""
+        if self._labels is None:
+            self._labels = labels_of(self.function) if hasattr(self, "function") else Labels()
+        return self._labels
 
 
 def compile_core(core: Core) -> _engine.Program:
