@@ -81,8 +81,7 @@ class Labels:
 
     def label(self, address: str) -> str:
         """Return the label of a choice, a part, a call or an iteration."""
-        text = SEPARATOR.join(self.steps(address))
-        return text[:1].upper() + text[1:]
+        return _path(self.steps(address))
 
     def short(self, address: str) -> str:
         """Return the last step of the label, as it is read below the label of the call around it."""
@@ -90,9 +89,32 @@ class Labels:
 
     def steps(self, address: str) -> list[str]:
         """Return the steps of a label, outermost first."""
-        return list(self._steps(address.split("/")))
+        return [text if number is None else f"{text} {number}" for text, number in self._steps(address)]
 
-    def _steps(self, components: list[str]) -> Iterator[str]:
+    def kind(self, address: str) -> str:
+        """Return the last step without the number of an iteration: the same for all parts of a loop."""
+        *_, (text, _) = self._steps(address)
+        return text
+
+    def site(self, function: str, component: str) -> str:
+        """Return the label of a choice by its function, with the loops around it (`wings/while#0`), in all its runs."""
+        name, *loops = function.split("/")
+        inside = self.functions.get(name.rpartition(".")[2], UNKNOWN)
+        steps = [] if inside == 0 else [words(name.rpartition(".")[2])]
+        for loop in loops:
+            of, _, number = loop.partition("#")
+            key = "loop", f"{of}[]" if number in ("", "0") else f"{of}[]#{number}"
+            known = self.tables[inside].get(key) if inside != UNKNOWN else None
+            inside = known.inside if known is not None else UNKNOWN
+            if known is not None and component in known.joins:
+                return _path([*steps, known.text])
+            steps.append(known.text if known is not None else "step" if is_anonymous(of) else words(of))
+        found = self._found(inside, component, True)
+        return _path([*steps, found.text if found is not None else _plain(component)])
+
+    def _steps(self, address: str) -> Iterator[tuple[str, int | None]]:
+        """Yield the steps, each with the number of its iteration."""
+        components = address.split("/")
         inside = 0 if self.tables else UNKNOWN
         at = 0
         while at < len(components):
@@ -102,9 +124,9 @@ class Labels:
                 site = self._loop(inside, loop)
                 inside, number = site.inside, int(loop[2]) + 1
                 if is_last or (joined := self._joined(site, inside, components, at)) is None:
-                    yield f"{site.text} {number}"
+                    yield site.text, number
                     continue
-                yield f"{joined} {number}"
+                yield joined, number
                 if (after := self._found(inside, components[at], at + 1 == len(components))) is not None:
                     inside = after.inside
                 else:
@@ -112,11 +134,11 @@ class Labels:
                 at += 1
                 continue
             if (memo := _MEMO.fullmatch(component)) is not None:
-                yield f"{words(memo[1].rpartition('.')[2])} {_argument(memo[2])}"
+                yield f"{words(memo[1].rpartition('.')[2])} {_argument(memo[2])}", None
                 inside = self._function(memo[1])
                 continue
             found = self._found(inside, component, is_last)
-            yield found.text if found is not None else _plain(component)
+            yield found.text if found is not None else _plain(component), None
             inside = found.inside if found is not None else self._function(component)
 
     def _found(self, inside: int, component: str, is_last: bool) -> Site | None:
@@ -142,6 +164,11 @@ class Labels:
 
     def _function(self, component: str) -> int:
         return self.functions.get(component.partition("#")[0].rpartition(".")[2], UNKNOWN)
+
+
+def _path(steps: Sequence[str]) -> str:
+    text = SEPARATOR.join(steps)
+    return text[:1].upper() + text[1:]
 
 
 def is_anonymous(name: str) -> bool:

@@ -217,8 +217,9 @@ def _write(
 def _summary(result: nw.Result, place: Path, clock: Clock) -> None:
     if isinstance(result.info, results.info.ImproveInfo) and len({sample.seed for sample in result}) == 1:
         print(result.info)
-    if losses := str(getattr(result.info, "losses", "")):
-        print(losses)
+    losses = getattr(result.info, "losses", None)
+    if losses is not None and losses.causes:
+        print(losses.text(result.model.labels))
     for number, sample in enumerate(result, 1):
         print(f"{results.caption(sample, number)}   {counted(sample.primitives, 'primitive')}")
     print(f"best: #{result.samples.index(result.best) + 1}; {folders.location(place)}")

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from math import ceil, floor, prod
+from math import floor, prod
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,6 +25,18 @@ if TYPE_CHECKING:
 
 #: The largest number of cells of a grid that measures a scene beyond its target; a larger scene has larger cells.
 MAX_CELLS = 2_000_000
+#: The largest share that stands for nothing: what rounding of numbers leaves.
+NOTHING = 1e-9
+
+
+def percent(share: float) -> str:
+    """Write a share for people: the nearest whole percent, but only all is 100 %, and only nothing is 0 %."""
+    whole = floor(100.0 * share + 0.5)
+    if whole < 1 and share > NOTHING:
+        whole = 1
+    elif whole == 100 and share < 1.0 - NOTHING:
+        whole = 99
+    return f"{whole} %"
 
 
 @dataclass(frozen=True)
@@ -49,9 +61,7 @@ class Fit:
         return cls(both / max(int(target.sum()), 1), (filled - both) / max(filled, 1))
 
     def __str__(self) -> str:
-        # Rounded to the worse side: only all is 100 %, and only nothing is 0 %.
-        covered, outside = floor(1000 * self.covered + 1e-9), ceil(1000 * self.outside - 1e-9)
-        return f"{covered / 10:.1f} % covered, {outside / 10:.1f} % outside"
+        return f"{percent(self.covered)} covered, {percent(self.outside)} outside"
 
 
 def fit(score: Score, scene: Scene) -> Fit | None:

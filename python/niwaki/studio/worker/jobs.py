@@ -147,5 +147,6 @@ def _answer(
     outcomes = runs.store(result, model, run, file, origin)
     for sample, outcome in zip(result.samples, outcomes, strict=True):
         send(*shape(sample, "result", job, outcome.key))
-    losses = str(getattr(result.info, "losses", ""))
-    return Answer(outcomes=outcomes, interrupted=result.interrupted, note=losses)
+    losses = getattr(result.info, "losses", None)
+    note = "" if losses is None else losses.text(result.model.labels)
+    return Answer(outcomes=outcomes, interrupted=result.interrupted, note=note)
