@@ -49,7 +49,7 @@ class Compiled(Marked[P, T]):
     def labels(self) -> Labels:
         """The labels of choices and parts by address; without the source of the model, the words of addresses."""
         if self._labels is None:
-            self._labels = labels_of(self.function) if hasattr(self, "function") else Labels()
+            self._labels = labels_of(self.function)
         return self._labels
 
 

@@ -11,13 +11,14 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from math import floor, prod
+from math import prod
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from niwaki import _engine
+from niwaki.shares import coverage
 
 if TYPE_CHECKING:
     from niwaki.draw.scene import Scene
@@ -25,18 +26,6 @@ if TYPE_CHECKING:
 
 #: The largest number of cells of a grid that measures a scene beyond its target; a larger scene has larger cells.
 MAX_CELLS = 2_000_000
-#: The largest share that stands for nothing: what rounding of numbers leaves.
-NOTHING = 1e-9
-
-
-def percent(share: float) -> str:
-    """Write a share for people: the nearest whole percent, but only all is 100 %, and only nothing is 0 %."""
-    whole = floor(100.0 * share + 0.5)
-    if whole < 1 and share > NOTHING:
-        whole = 1
-    elif whole == 100 and share < 1.0 - NOTHING:
-        whole = 99
-    return f"{whole} %"
 
 
 @dataclass(frozen=True)
@@ -61,7 +50,7 @@ class Fit:
         return cls(both / max(int(target.sum()), 1), (filled - both) / max(filled, 1))
 
     def __str__(self) -> str:
-        return f"{percent(self.covered)} covered, {percent(self.outside)} outside"
+        return coverage(self.covered, self.outside)
 
 
 def fit(score: Score, scene: Scene) -> Fit | None:

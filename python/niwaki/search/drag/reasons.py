@@ -8,7 +8,7 @@ import numpy as np
 
 from niwaki.search.drag.descent import bounds
 from niwaki.search.drag.held import Held, State, Vector
-from niwaki.targets.fit import percent
+from niwaki.shares import percent
 
 
 def nothing_moves(held: Held) -> str:

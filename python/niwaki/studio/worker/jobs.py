@@ -67,15 +67,16 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
 
 def watching(job: int, run: int, send: Any, check: Callable[[], None]) -> Watch:
     """Return the `progress` of a search: it sends the best so far, and `check` can end the search."""
-    start, shown = time.perf_counter(), [-float("inf")]
+    start, shown, fit = time.perf_counter(), [-float("inf")], [""]
 
     def progress(now: Progress) -> None:
         sample = now.sample
         if sample is not None and sample.log_score > shown[0]:
             shown[0] = sample.log_score
+            fit[0] = str(sample.fit or "")
             send(*shape(sample, "best", job, Key(run)))
         best = shown[0] if isfinite(shown[0]) else None
-        send(Progressed(job, now.done, best, time.perf_counter() - start))
+        send(Progressed(job, now.done, best, time.perf_counter() - start, fit[0]))
         check()
 
     return progress
