@@ -95,7 +95,7 @@ def regrow(job: Regrow, send: Any) -> Answer:
         if form.choices not in [choices, *(other.choices for other in forms)]:
             forms.append(form)
     if not forms:
-        raise CommandError("no-other-form", f"`{job.part}` has no other form here")
+        raise CommandError("no-other-form", f"{search.model.labels.label(job.part)} has no other form here")
     if job.strength is not None:
         forms = variety.ordered(whole, forms, job.count, job.strength)
     result = Result(search, forms, job.seed)
