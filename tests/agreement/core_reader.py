@@ -67,7 +67,7 @@ class Reader:
     def __init__(self, core: Core, state: PlainRun) -> None:
         self.core = core
         self.state = state
-        module = parse(core.write(labels=True))[0][1:]
+        module = parse(core.write(components=True))[0][1:]
         self.functions = {part[1]: part for part in module if part[0] == "fn"}
         self.entry = next(part[1] for part in module if part[0] == "entry")
 

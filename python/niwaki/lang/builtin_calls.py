@@ -268,7 +268,7 @@ def caller(body: Body, node: ast.expr) -> Caller:
 
 def _named(body: Body, head: str, args: Sequence[Expr], node: ast.AST) -> Form:
     form = body.form(head, args, None)
-    form.span, form.label = body.span(node), body.unit.labels.get((node, "call"), "")
+    form.span, form.component = body.span(node), body.unit.components.get((node, "call"), "")
     return form
 
 

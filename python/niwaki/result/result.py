@@ -382,7 +382,7 @@ class Result(Sequence[Sample]):
         return self.best.save(path, **settings)
 
     def sheet(self, *, most: int | None = None, **settings: Any) -> Any:
-        """All samples side by side, or the best so many; best first, each with its number, from 1, and its scores.
+        """All samples side by side, or the best so many; best first, each with its number, from 1, and its fit.
 
         Where an image or a shadow is matched and no volume, they are seen from its camera.
         """
@@ -462,10 +462,11 @@ def _columns(chain: Sequence[Sample]) -> dict[str, NDArray[Any]]:
     return columns
 
 
-def caption(sample: Sample, number: int) -> str:
-    """Write a line for a contact sheet; `number` is the place of the sample in its result, from 1."""
+def caption(sample: Sample, number: int, with_score: bool = False) -> str:
+    """Write a line about a sample; `number` is its place in its result, from 1. Without a fit it has the log score."""
     fits = f"   {sample.fit}" if sample.fit is not None else ""
-    return f"#{number}{fits}   seed {sample.seed}   {sample.log_score:.2f}"
+    score = f"   log score {sample.log_score:.2f}" if with_score or sample.fit is None else ""
+    return f"#{number}{fits}   seed {sample.seed}{score}"
 
 
 def _settings_of_view(view: View) -> dict[str, Any]:

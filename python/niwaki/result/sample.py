@@ -116,6 +116,13 @@ class Sample:
         """The choices by readable address, words of `choose` as words; `run(choices=...)` repeats the run with them."""
         return {choice.path: choice.value for choice in self._trace.choices}
 
+    def label(self, address: str) -> str:
+        """Return the name for people of a choice, a part, a call or an iteration: *Wing 1 › section 2 › width*.
+
+        Labels follow from the model's source, see the manual; only addresses can be typed.
+        """
+        return self.search.model.labels.label(address)
+
     def held(self, *patterns: str) -> dict[str, Any]:
         """List choices with their values, for the `hold` of another search.
 

@@ -94,6 +94,8 @@ class Searching(Struct):
     done: int = 0
     best: float | None = None
     seconds: float = 0.0
+    #: The fit of the best, as a person reads it; empty without a target.
+    fit: str = ""
 
 
 class View(Struct):
@@ -143,11 +145,19 @@ class Patch(Event, tag="patch"):
 
 
 class Described(Event, tag="described"):
-    """The choices and parts of a result, in the order of its run."""
+    """The choices and parts of a result, in the order of its run.
+
+    Attributes
+    ----------
+    labels
+        The label of every choice and part, and of the calls and iterations around them, by address: the whole label,
+        and its last step, which is read below the label of the call around it.
+    """
 
     key: Key | None = None
     choices: list[ChoiceInfo] = []
     parts: list[PartInfo] = []
+    labels: dict[str, tuple[str, str]] = {}
 
 
 class Shape(Event, tag="shape"):
