@@ -108,8 +108,8 @@ def test_a_held_word_is_found_wherever_its_list_has_it() -> None:
     # Only one of the lists has it: runs with the other are invalid, not the search.
     assert set(law(moved, hold={"first": "n0"})) == {row for row in free if row[1] == "n0"}
     for method in (nw.smc(1000), nw.mh(steps=6000, thin=2)):
-        found = nw.run(moved, method, seed=4, hold={"first": "n1"}).distribution()
-        assert found == pytest.approx(held, abs=5 * 0.5 / math.sqrt(500))
+        shares = nw.run(moved, method, seed=4, hold={"first": "n1"}).distribution()
+        assert shares == pytest.approx(held, abs=5 * 0.5 / math.sqrt(500))
 
 
 @pytest.mark.parametrize("hold", [{}, {"first": "n1"}, {"first": "n1", "picked/word": "n2"}, {"first": "n0"}])
