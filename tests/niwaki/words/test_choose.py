@@ -16,6 +16,7 @@ from niwaki.batches import export
 from niwaki.draw.scene import Scene
 from niwaki.errors import ModelError, NiwakiError
 from niwaki.lang.compiled import task
+from niwaki.result.hmc import GradientWarning
 from niwaki.search.drag.structure import _alternatives
 from niwaki.search.engine_runs import engine_form
 from niwaki.shell import run_files
@@ -55,6 +56,14 @@ def moved():
     second = picked(names, [1, 3, 2] if more else [2, 1])
     nw.factor(0.7 if first == second else 0.0)
     return more, first, second
+
+
+@nw.model
+def line():
+    """A word beside a real choice."""
+    kind = choose(["a", "b"])
+    x = nw.gaussian(0.0, 1.0)
+    nw.factor(-x if kind == "a" else x)
 
 
 def law(model: Any, **settings: Any) -> dict[Any, float]:
@@ -208,6 +217,8 @@ def test_summaries_have_places_and_drags_try_words() -> None:
     assert result.best.options == {"roof": tuple(ROOFS), "wall": ("brick", "wood"), "door": ("left", "right")}
     roof = result.best._trace.choices[0]
     assert sorted([roof.value, *_alternatives(roof)]) == sorted(ROOFS)
+    with pytest.warns(GradientWarning, match="does not move it: `kind = 'b'`"):
+        nw.run(line, nw.hmc(steps=2, draws=2), seed=1, choices={"kind": "b", "x": 0.5})
     explained = nw.search.explain(house, "roof", seed=1)
     assert {explained["old"], explained["new"]} < set(ROOFS)
 
