@@ -3,8 +3,8 @@
 use niwaki_geom::view::camera::Camera;
 use niwaki_geom::view::{Lens, Light, shadow_rays};
 use niwaki_geom::{
-    GeomError, Look, Mat3, Operation, Picture, Primitive, Rule, Shape, SketchSpec, Target, TargetPicture, TriMesh, Vec3,
-    avoid, floor, match_image, match_shadow, match_volume, no_self_intersection, vec3,
+    GeomError, Look, Mat3, Operation, Picture, Primitive, Rule, Shape, SketchSpec, Target, TargetPicture,
+    TriMesh, Vec3, avoid, floor, match_image, match_shadow, match_volume, no_self_intersection, vec3,
 };
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -40,8 +40,16 @@ impl Dice {
 }
 
 /// The kinds of primitives, in the order of the table.
-pub const KINDS: [&str; 8] =
-    ["aligned box", "box", "cylinder", "limb", "box with a hole", "turned box with a hole", "mesh 100", "mesh 10000"];
+pub const KINDS: [&str; 8] = [
+    "aligned box",
+    "box",
+    "cylinder",
+    "limb",
+    "box with a hole",
+    "turned box with a hole",
+    "mesh 100",
+    "mesh 10000",
+];
 
 /// The sketches, in the order of the table.
 pub const SKETCHES: [&str; 6] = ["volume", "avoid", "self-intersection", "silhouette", "shadow", "floor"];

@@ -5,7 +5,6 @@
 //! - [`mesh`], [`topology`], [`polytope`], [`hull`], [`limb`], [`segment`], [`convex`]: surfaces and convex solids
 //! - [`solids`]: every kind of solid, a file each, and the shapes that a model emits
 //! - [`plane`]: flat shapes, and which pixels of a page they cover
-//! - [`cut`]: solids cut from other solids
 //! - [`voxel`]: which cells of a grid a shape fills
 //! - [`intersect`]: whether two shapes intersect
 //! - [`view`]: the rays of a picture, and which of them meet a shape
@@ -15,12 +14,12 @@
 //! - [`window`]: what a sketch shows around a place
 //! - [`fine`]: meshes with many sides, for pictures and files
 //! - [`store`]: geometry that shapes have needed lately
+//! - `winding`: closed surfaces around a point
 //! - `once`: values that are computed when they are first needed
 
 pub mod bounds;
 pub mod bricks;
 pub mod convex;
-pub mod cut;
 pub mod error;
 pub mod fine;
 mod folds;
@@ -43,12 +42,12 @@ pub mod tree;
 pub mod tube;
 pub mod view;
 pub mod voxel;
+mod winding;
 pub mod window;
 
 pub use bounds::{Aabb, FAR};
 pub use bricks::Target;
 pub use convex::{Coarse, Convex};
-pub use cut::{Cut, Operation};
 pub use error::GeomError;
 pub use intersect::{Rule, intersects};
 pub use look::Look;
@@ -59,6 +58,7 @@ pub use plane::Page;
 pub use polytope::Hull;
 pub use ring::Ring;
 pub use sketch::*;
+pub use solids::cut::{Cut, Operation};
 pub use solids::primitive::Primitive;
 pub use solids::shape::Shape;
 pub use solids::{Cuboid, Cylinder, Ellipse, Solid, Stroke};

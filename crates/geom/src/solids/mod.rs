@@ -6,6 +6,7 @@
 //! - [`word`]: the words of the language that make solids, as data
 //! - [`shape`], [`words`], [`primitive`]: the placed solids that a model emits
 //! - `plate`: flat shapes as solids
+//! - [`cut`], `surface`, `leaf`, `sides`: solids cut from others
 
 #[macro_use]
 pub mod word;
@@ -16,6 +17,7 @@ pub mod cut;
 pub mod cylinder;
 pub mod ellipse;
 pub mod ellipsoid;
+mod leaf;
 pub mod limb;
 pub mod measured;
 pub mod mesh;
@@ -23,7 +25,9 @@ mod plate;
 pub mod primitive;
 pub mod segment;
 pub mod shape;
+mod sides;
 pub mod stroke;
+mod surface;
 #[cfg(test)]
 pub(crate) mod testing;
 pub mod torus;
@@ -32,7 +36,6 @@ pub mod words;
 
 use crate::bounds::Aabb;
 use crate::convex::Coarse;
-use crate::cut::Cut;
 use crate::error::GeomError;
 use crate::fine::FineMesh;
 use crate::mesh::TriMesh;
@@ -40,6 +43,7 @@ use crate::placement::Placement;
 use crate::tube::Tube;
 pub use arch::Arch;
 pub use cuboid::{Cuboid, TaperedCuboid};
+pub use cut::Cut;
 pub use cylinder::{Cylinder, TaperedCylinder};
 pub use ellipse::Ellipse;
 pub use ellipsoid::Ellipsoid;

@@ -4,7 +4,7 @@
 //! another the first leaf's remains. The pieces of an edge are divided at the same points on both sides only by chance, so the
 //! pieces of the surface meet without gaps, but not corner to corner.
 
-use super::Cut;
+use super::cut::Cut;
 use super::leaf::Leaf;
 use super::sides::Sides;
 use crate::bounds::Aabb;
@@ -30,7 +30,7 @@ struct Facet {
 
 /// The distance below which points of a cut are at one place.
 pub(super) fn tolerance(cut: &Cut) -> f64 {
-    let aabb = cut.solids.iter().fold(Aabb::EMPTY, |all, shape| all.union(shape.aabb()));
+    let aabb = cut.solids().iter().fold(Aabb::EMPTY, |all, shape| all.union(shape.aabb()));
     let most = |v: Vec3| v.x.max(v.y).max(v.z);
     let farthest = most(aabb.high.max(aabb.low * -1.0));
     (SAME * most(aabb.extent())).max(STEP * farthest)
@@ -39,7 +39,7 @@ pub(super) fn tolerance(cut: &Cut) -> f64 {
 /// The leaves as scores see them.
 pub(super) fn coarse_leaves(cut: &Cut) -> Vec<Leaf> {
     let tolerance = tolerance(cut);
-    cut.solids.iter().map(|shape| Leaf::coarse(shape, tolerance)).collect()
+    cut.solids().iter().map(|shape| Leaf::coarse(shape, tolerance)).collect()
 }
 
 /// The surface as scores see it.
@@ -65,7 +65,7 @@ pub(crate) fn mesh(cut: &Cut) -> Result<TriMesh, GeomError> {
 /// would bulge at the rim of its hole.
 pub(crate) fn fine(cut: &Cut) -> FineMesh {
     let tolerance = tolerance(cut);
-    let meshes: Vec<FineMesh> = cut.solids.iter().map(|shape| shape.sharp_mesh()).collect();
+    let meshes: Vec<FineMesh> = cut.solids().iter().map(|shape| shape.sharp_mesh()).collect();
     let leaves: Vec<Leaf> = meshes.iter().map(|mesh| Leaf::fine(mesh, tolerance)).collect();
     let mut all = FineMesh::default();
     each_facet(cut, &leaves, |facet| {

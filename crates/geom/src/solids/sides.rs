@@ -64,9 +64,8 @@ mod tests {
     #[test]
     fn known_sides_hold_whatever_the_others_are() {
         let whole = [Sides::OUT, Sides::IN, Sides::ON, Sides::AGAINST];
-        let partial: Vec<Sides> = (0..4)
-            .flat_map(|known| (0..4).map(move |solid| Sides { known, solid: solid & known }))
-            .collect();
+        let partial: Vec<Sides> =
+            (0..4).flat_map(|known| (0..4).map(move |solid| Sides { known, solid: solid & known })).collect();
         let fits = |part: &Sides, all: &Sides| all.solid & part.known == part.solid;
         for a in &partial {
             for b in &partial {
