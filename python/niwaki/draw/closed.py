@@ -95,7 +95,8 @@ def _solid(tools: Any, vertices: NDArray[Any], faces: NDArray[Any], normals: NDA
         merge_from_vert=doubled.astype(np.uint64),
         merge_to_vert=kept[doubled].astype(np.uint64),
     )
-    return tools.Manifold(mesh)
+    # An original has a number, by which its faces are known in a result.
+    return tools.Manifold(mesh).as_original()
 
 
 def _combined(solids: list[Any], steps: list[str]) -> Any:

@@ -4,7 +4,7 @@
 //! on each side alone. So faces that lie on one another need no rules of their own: a piece is on the surface of the result
 //! if its sides differ.
 
-/// What is known of the sides of a piece. Bit 0 is the front, where the normal points, and bit 1 the back.
+/// The known sides of a piece. Bit 0 is the front, where the normal points, and bit 1 the back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Sides {
     known: u8,

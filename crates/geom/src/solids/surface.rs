@@ -15,7 +15,7 @@ use crate::vector::Vec3;
 
 /// The distance, as a share of the size, below which points are at one place.
 const SAME: f64 = 1e-9;
-/// The same for coordinates far from the origin, as a share of them: 32 steps of a 64-bit number.
+/// This distance for coordinates far from the origin, as a share of them: 32 steps of a 64-bit number.
 const STEP: f64 = 8e-15;
 
 /// A piece of a leaf's face that is on the surface of the cut.
@@ -110,7 +110,7 @@ fn each_facet(cut: &Cut, leaves: &[Leaf], mut each: impl FnMut(Facet)) {
                 .map(|other| if other.aabb.meets(&reach) { Sides::UNKNOWN } else { Sides::OUT })
                 .collect();
             sides[number] = Sides::ON;
-            let others: Vec<usize> = (0..leaves.len()).filter(|other| !sides[*other].is_known()).collect();
+            let dividers: Vec<usize> = (0..leaves.len()).filter(|other| !sides[*other].is_known()).collect();
             open.push((face.points.clone(), sides, 0));
             while let Some((points, sides, next)) = open.pop() {
                 let outcome = cut.evaluate(&sides);
@@ -118,14 +118,14 @@ fn each_facet(cut: &Cut, leaves: &[Leaf], mut each: impl FnMut(Facet)) {
                     continue;
                 }
                 // A face of an earlier leaf may lie below a piece whose sides are known.
-                let is_first = others[next..].first().is_none_or(|other| *other > number);
+                let is_first = dividers[next..].first().is_none_or(|other| *other > number);
                 if outcome.is_known() && is_first {
                     let turned = outcome.front();
                     let points = if turned { points.into_iter().rev().collect() } else { points };
                     each(Facet { points, leaf: number, face: at, turned });
                     continue;
                 }
-                let other = others[next];
+                let other = dividers[next];
                 leaves[other].divide(points, face.normal, |piece, there| {
                     if !(there.is_on() && other < number) {
                         let mut sides = sides.clone();
