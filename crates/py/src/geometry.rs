@@ -8,7 +8,8 @@ use crate::views::{PyDrawing, PyPicture};
 use niwaki_geom::sketch::{SKETCHES, SketchForm};
 use niwaki_geom::solids::WORDS;
 use niwaki_geom::{
-    Ellipse, GeomError, Inputs, Operation, Primitive, Shape, SketchSpec, Sketches, Solid, Stroke, Target, TriMesh, Vec3,
+    Ellipse, GeomError, Inputs, Operation, Primitive, Shape, SketchSpec, Sketches, Solid, Stroke, Target,
+    TriMesh, Vec3,
 };
 use niwaki_math::Parameter;
 use niwaki_vm::builtins::{builtin, builtin_id, placed_mesh};

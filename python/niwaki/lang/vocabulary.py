@@ -254,7 +254,11 @@ FORBIDDEN_BUILTINS: frozenset[Any] = frozenset(
 
 
 def shape_help(message: str) -> str | None:
-    """Return help about a shape's point, size or colour, if the message says that the value is not a vector."""
+    """Return help about a cut of which nothing is left, or about a point, size or colour that is not a vector."""
+    if message == "nothing is left of the solid":
+        return (
+            "in `a - b` some of `a` must be outside of `b`; in `a & b` the two must overlap, not only touch"
+        )
     match = re.match(r"`(\w+)` of `(\w+)` takes (a vector|vectors)\b", message)
     if match is None or match[2] not in {word.__name__ for word in SHAPES}:
         return None

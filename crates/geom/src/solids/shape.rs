@@ -3,11 +3,11 @@
 //! Scores use the coarse mesh of its solid. Its hull is computed with the shape, but a store keeps it
 //! ([`crate::store`]). Pictures and files show the fine mesh of the same solid.
 
+use super::cut::{Cut, Operation};
 use super::measured::{Form, Tone, no_inside};
 use super::{Cuboid, Solid};
 use crate::bounds::Aabb;
 use crate::convex::{Convex, is_aligned};
-use crate::cut::{Cut, Operation};
 use crate::error::{GeomError, bad_shape};
 use crate::fine::FineMesh;
 use crate::look::{Look, Paint};
@@ -166,7 +166,7 @@ impl Shape {
     }
 
     /// The shape with another placement after its own.
-    pub(crate) fn placed_after(&self, placement: &Placement) -> Result<Shape, GeomError> {
+    pub(super) fn placed_after(&self, placement: &Placement) -> Result<Shape, GeomError> {
         Shape::new(self.solid().clone(), placement.after(&self.placement()), &self.look())
     }
 
