@@ -144,6 +144,30 @@ def test_strategies_agree_on_a_wall_with_holes() -> None:
         assert proposals > 30 and accepted > 0
 
 
+SOLIDS = """@model
+def m():
+    wide, deep = uniform(0.5, 2.0), gaussian(1.0, 0.5)
+    n = 1 + poisson(1) % 4
+    corners = [(0.0, 0.0), (wide, 0.0), (wide, deep), (0.0, 1.0)]
+    emit(extrude(corners, 1.0 + n, (0.0, 2.0 * n, 0.0), twist=0.1 * n))
+    path = [(5.0 + k, 0.0, gaussian(0.0, 1.0)) for k in range(1 + n)]
+    emit(sweep(corners, path, scale=wide))
+    emit(revolve([(wide, 0.0), (deep, 1.0)], center=(-5.0, 0.0, path[1][2] if flip() else 0.0)))
+    emit(hull([vec(uniform(-12, -10), k % 2, deep * (k // 2)) for k in range(3 + n)]))
+    observe(Gaussian(deep, 1.0), wide)
+    return corners
+"""
+
+
+def test_strategies_agree_on_solids_whose_points_are_choices() -> None:
+    tally = Tally()
+    text = HEADER + SOLIDS
+    for seed in range(12):
+        assert not disagreement(text, seed, 100, tally)
+    # Polygons that cross themselves are impossible, and are left again.
+    assert tally.programs > 6 and tally.accepted > 0.1 * tally.proposals / 4
+
+
 @pytest.mark.soak
 def test_strategies_agree_on_many_random_programs() -> None:
     """At least a thousand programs and a million proposals, from a fresh seed that is printed."""

@@ -12,7 +12,7 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-from niwaki import words
+from niwaki import _engine, words
 from niwaki.lang.core import is_literal
 from niwaki.words.distributions import FAMILIES, Distribution
 from niwaki.words.measures import LOOKS
@@ -253,13 +253,20 @@ FORBIDDEN_BUILTINS: frozenset[Any] = frozenset(
 )
 
 
+#: What arguments of shapes are, by type, beside points.
+_SHAPE_ARGUMENTS = {
+    "Pairs": "a list of pairs of numbers, such as `[(0, 0), (1, 0), (0, 1)]`",
+    "Points": "a list of points of three numbers, such as `[(0, 0, 0), (0, 1, 0)]`",
+}
+
+
 def shape_help(message: str) -> str | None:
     """Return help about a cut of which nothing is left, or about a point, size or colour that is not a vector."""
     if message == "nothing is left of the solid":
         return (
             "in `a - b` some of `a` must be outside of `b`; in `a & b` the two must overlap, not only touch"
         )
-    match = re.match(r"`(\w+)` of `(\w+)` takes (a vector|vectors)\b", message)
+    match = re.match(r"`(\w+)` of `(\w+)` takes (a vector|vectors|a list of points)\b", message)
     if match is None or match[2] not in {word.__name__ for word in SHAPES}:
         return None
     if match[1] == "color":
@@ -267,7 +274,9 @@ def shape_help(message: str) -> str | None:
             "a color is a tuple of red, green and blue from 0 to 1, such as `(1, 0, 0)`; "
             "`hsv` and `lab` make such colors"
         )
-    return f"`{match[1]}` of `{match[2]}` is a tuple of three numbers, such as `(0, 1, 0)`"
+    kind = next(row[1] for row in _engine.SHAPES[match[2]][1] if row[0] == match[1])
+    what = _SHAPE_ARGUMENTS.get(kind, "a tuple of three numbers, such as `(0, 1, 0)`")
+    return f"`{match[1]}` of `{match[2]}` is {what}"
 
 
 def plain_default(value: Any) -> bool:

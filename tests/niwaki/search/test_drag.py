@@ -103,10 +103,15 @@ def test_points_of_a_solid_move_with_its_list() -> None:
         {}, {choice.address for choice in sample._trace.choices}
     )
     names = [path for _, path, *_ in positions.movables]
-    prism, pile = (next(n for n, part in enumerate(positions.parts) if part[0] == name) for name in ("prism", "hull"))
+    prism, pile = (
+        next(n for n, part in enumerate(positions.parts) if part[0] == name) for name in ("prism", "hull")
+    )
     assert place(positions, prism, 0, (0.5, 0.5, 0.5)) == pytest.approx((wide, 2.0, 5.0))
     slopes = positions.slopes(prism, 0, (0.5, 0.5, 0.5))
-    assert slopes[:, names.index("wide")] == pytest.approx((1, 0, 0)) and not slopes[:, names.index("deep")].any()
+    assert (
+        slopes[:, names.index("wide")] == pytest.approx((1, 0, 0))
+        and not slopes[:, names.index("deep")].any()
+    )
     frame = np.array(positions.frame(pile, 0))
     for corner in ((1, 2, 3), (4, 0, 0), (0, 0, 6)):
         x, y, z = rotation((0, 0, 1), angle) * nw.vec(*corner)

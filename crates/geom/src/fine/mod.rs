@@ -2,6 +2,7 @@
 //!
 //! - `mesh.rs`    triangles with normals
 //! - `boxes.rs`   rounded boxes, tapered or not
+//! - `corners.rs` polygons with rounded corners
 //! - `extrude.rs` rounded prisms over polygons, twisted and tapered
 //! - `revolve.rs` cylinders and cones with rounded rims
 //! - `limb.rs`    smooth tubes with a domed end
@@ -9,6 +10,7 @@
 //! - `crease.rs`  normals of any mesh, sharp at large angles
 
 pub(crate) mod boxes;
+pub(crate) mod corners;
 pub(crate) mod crease;
 pub(crate) mod extrude;
 pub(crate) mod limb;
