@@ -2,9 +2,8 @@
 
 import pkgutil
 
-import pytest
-
 import niwaki as nw
+import pytest
 from niwaki import gallery, search
 from niwaki.errors import ModelError
 from niwaki.lang import nouns
@@ -123,12 +122,12 @@ def test_a_given_label_is_a_label_and_nothing_else():
     found = labelled(given, [1])
     assert found == {
         "x": "East side",
-        "leg/uniform": "Left leg › height",
-        "leg#1/uniform": "Right leg › height",
+        "leg/uniform": "Left leg › length",
+        "leg#1/uniform": "Right leg › length",
         "y": "Y of it",
         "y#1": "Roof",
-        "i[0]/leg/uniform": "Back leg 1 › height",
-        "i[1]/leg/uniform": "Back leg 2 › height",
+        "i[0]/leg/uniform": "Back leg 1 › length",
+        "i[1]/leg/uniform": "Back leg 2 › length",
         "named/uniform": "Named › named",
         "leg/emit": "Left leg › cylinder",
         "leg#1/emit": "Right leg › cylinder",
