@@ -109,8 +109,8 @@ class Labels:
             if known is not None and component in known.joins:
                 return _path([*steps, known.text])
             steps.append(known.text if known is not None else "step" if is_anonymous(of) else words(of))
-        found = self._found(inside, component, True)
-        return _path([*steps, found.text if found is not None else _plain(component)])
+        site_here = self._site_of(inside, component, True)
+        return _path([*steps, site_here.text if site_here is not None else _plain(component)])
 
     def _steps(self, address: str) -> Iterator[tuple[str, int | None]]:
         """Yield the steps, each with the number of its iteration."""
@@ -127,7 +127,7 @@ class Labels:
                     yield site.text, number
                     continue
                 yield joined, number
-                if (after := self._found(inside, components[at], at + 1 == len(components))) is not None:
+                if (after := self._site_of(inside, components[at], at + 1 == len(components))) is not None:
                     inside = after.inside
                 else:
                     inside = self._function(components[at])
@@ -137,11 +137,11 @@ class Labels:
                 yield f"{words(memo[1].rpartition('.')[2])} {_argument(memo[2])}", None
                 inside = self._function(memo[1])
                 continue
-            found = self._found(inside, component, is_last)
-            yield found.text if found is not None else _plain(component), None
-            inside = found.inside if found is not None else self._function(component)
+            site_here = self._site_of(inside, component, is_last)
+            yield site_here.text if site_here is not None else _plain(component), None
+            inside = site_here.inside if site_here is not None else self._function(component)
 
-    def _found(self, inside: int, component: str, is_last: bool) -> Site | None:
+    def _site_of(self, inside: int, component: str, is_last: bool) -> Site | None:
         if inside == UNKNOWN:
             return None
         table = self.tables[inside]

@@ -129,12 +129,12 @@ def describe(job: DescribeRun, send: Any) -> Answer:
 
 def _labels(labels: Labels, addresses: Iterable[str]) -> dict[str, tuple[str, str]]:
     """Return the labels of addresses, and of the calls and iterations around them, with their last steps."""
-    found: dict[str, tuple[str, str]] = {}
+    texts: dict[str, tuple[str, str]] = {}
     for address in addresses:
-        while address and address not in found:
-            found[address] = labels.label(address), labels.short(address)
+        while address and address not in texts:
+            texts[address] = labels.label(address), labels.short(address)
             address = address.rpartition("/")[0]
-    return found
+    return texts
 
 
 def shown(value: Any) -> Any:
