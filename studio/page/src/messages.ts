@@ -391,7 +391,7 @@ export interface Described {
   key: Key | null;
   choices: ChoiceInfo[];
   parts: PartInfo[];
-  labels: Record<string, [string, string]>;
+  labels: [number, string, string, boolean][];
 }
 
 /** The header of a frame with a mesh: see `niwaki.studio.worker.shapes`. */

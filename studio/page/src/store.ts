@@ -186,14 +186,35 @@ export function avoid(solid: TargetAsk): void {
   ask({ obstacles: [...obstacles, solid] });
   activeObject.value = { name: `obstacle ${obstacles.length}`, mode: "translate" };
 }
-/** The label of an address; the address itself where the described result has no label of it. */
-export const labelOf = (address: string): string => described.value?.labels?.[address]?.[0] ?? address;
-/** The label of an address as it is read below the label of a call around it. */
+/** The numbers of the described result's labels, by the number around and the component of addresses. */
+const labelled = computed(
+  () => new Map((described.value?.labels ?? []).map(([around, component], k) => [`${around} ${component}`, k])),
+);
+/** The steps of a label, outermost first; the components of an address that the described result does not have. */
+function stepsOf(address: string): string[] {
+  const steps: string[] = [];
+  const components = address.split("/");
+  let around = -1;
+  for (const component of components) {
+    const number = labelled.value.get(`${around} ${component}`);
+    if (number === undefined) return components;
+    const [, , text, isJoined] = described.value!.labels[number];
+    if (isJoined) steps.pop();
+    steps.push(text);
+    around = number;
+  }
+  return steps;
+}
+/** A text with a capital at its start. */
+export const capital = (text: string): string => text.slice(0, 1).toUpperCase() + text.slice(1);
+/** The label of an address. */
+export const labelOf = (address: string): string => capital(stepsOf(address).join(" › "));
+/** The label of an address as it is read below the label of a call around it: without the steps that both have. */
 export function labelBelow(address: string, call: string): string {
-  const [whole, last] = described.value?.labels?.[address] ?? [address, address.split("/").pop()!];
-  const head = `${labelOf(call)} › `;
-  if (call !== "" && whole.startsWith(head)) return whole.slice(head.length);
-  return address.slice(call === "" ? 0 : call.length + 1).includes("/") ? whole : last;
+  const [steps, around] = [stepsOf(address), call === "" ? [] : stepsOf(call)];
+  let same = 0;
+  while (same < steps.length - 1 && steps[same] === around[same]) same++;
+  return steps.slice(same).join(" › ");
 }
 export function select(address: string | null): void {
   part.value = address;

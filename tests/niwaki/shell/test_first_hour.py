@@ -187,8 +187,8 @@ def test_a_replay_of_a_changed_model_keeps_what_fits(place: Path) -> None:
     total = len(before)
     assert done.stdout.splitlines()[:3] == [
         f"{total - 1} of {total} choices fit",
-        "  not possible: `hat/side`",
-        "  drawn: `hat/side`, `hat/tilt`",
+        "  not possible: Hat › side",
+        "  drawn: Hat › side, Hat › tilt",
     ]
     after = choices("b")
     assert {k: v for k, v in after.items() if not k.startswith("hat")} == {

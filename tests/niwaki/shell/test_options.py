@@ -28,6 +28,7 @@ FLAGS = {
         ("Number of particles of a population.", "The number of particles of a population."),
     ),
     "--seed": ("--seed", "N", "Seed of the random stream. Default: a new seed, which is printed."),
+    "--verbose": ("--verbose", None, "Print log scores and the steps of the search, too."),
     "--threads": ("--threads", "N", "Number of threads; results do not depend on it."),
     "--max-steps": ("--max-steps", "N", "Limit of calls and loop steps of one run."),
     "--max-memory": ("--max-memory", "MB", "Memory limit of a run or a population"),

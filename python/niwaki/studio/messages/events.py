@@ -150,14 +150,15 @@ class Described(Event, tag="described"):
     Attributes
     ----------
     labels
-        The label of every choice and part, and of the calls and iterations around them, by address: the whole label,
-        and its last step, which is read below the label of the call around it.
+        The label of every choice and part, and of the calls and iterations around them, those around first: the number
+        of the row around it (-1 for the outermost), the component of addresses, the label as it is read below the row
+        around it, and whether it takes that row's place in a whole label (`niwaki.lang.labels.Labels.tree`).
     """
 
     key: Key | None = None
     choices: list[ChoiceInfo] = []
     parts: list[PartInfo] = []
-    labels: dict[str, tuple[str, str]] = {}
+    labels: list[tuple[int, str, str, bool]] = []
 
 
 class Shape(Event, tag="shape"):
