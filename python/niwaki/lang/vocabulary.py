@@ -100,7 +100,7 @@ _VECTORS = (
     words.rotate,
     words.rotation,
 )
-_COLORS = (words.hsv, words.lab, words.to_hsv, words.to_lab, words.color_difference)
+_COLORS = (words.rgb, words.hsv, words.lab, words.to_hsv, words.to_lab, words.color_difference)
 _POLYGONS = (
     words.polygon_area,
     words.polygon_contains,
@@ -108,7 +108,7 @@ _POLYGONS = (
     words.polygon_disc_area,
     words.polygon_inset,
 )
-_NUMBERS = (words.clip, words.lerp, words.sign)
+_NUMBERS = (words.clip, words.lerp, words.linspace, words.sign, words.smoothstep)
 _SOFT = (
     words.softeq,
     words.soft_at_least,
@@ -160,7 +160,20 @@ DRAWS: dict[Any, type[Distribution]] = {
 }
 
 ALL_WORDS: frozenset[Any] = frozenset(
-    {*WORDS, *EFFECTS, *DRAWS, *FAMILIES, words.choose, words.future, words.infer, words.look, words.mem}
+    {
+        *WORDS,
+        *EFFECTS,
+        *DRAWS,
+        *FAMILIES,
+        words.arrayed,
+        words.choose,
+        words.future,
+        words.infer,
+        words.look,
+        words.mem,
+        words.mirrored,
+        words.place,
+    }
 )
 
 METHODS: dict[str, tuple[int, int]] = {
@@ -251,12 +264,12 @@ FORBIDDEN_BUILTINS: frozenset[Any] = frozenset(
 def shape_help(message: str) -> str | None:
     """Return help about a shape's point, size or colour, if the message says that the value is not a vector."""
     match = re.match(r"`(\w+)` of `(\w+)` takes (a vector|vectors)\b", message)
-    if match is None or match[2] not in {word.__name__ for word in SHAPES}:
+    if match is None or match[2] not in {"emit", *(word.__name__ for word in SHAPES)}:
         return None
     if match[1] == "color":
         return (
-            "a color is a tuple of red, green and blue from 0 to 1, such as `(1, 0, 0)`; "
-            "`hsv` and `lab` make such colors"
+            "a color is a tuple of red, green and blue from 0 to 1, such as `(1, 0, 0)`, or a name such as "
+            '`"tomato"` or `"#c83c1e"`; `hsv` and `lab` make such colors'
         )
     return f"`{match[1]}` of `{match[2]}` is a tuple of three numbers, such as `(0, 1, 0)`"
 
