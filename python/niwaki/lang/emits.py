@@ -45,7 +45,9 @@ def emit(body: Body, node: ast.Call) -> Expr:
     values = body.in_order([later(body, value) for value in (*node.args, *looks.values())])
     count = len(node.args)
     look = dict(zip(looks, values[count:], strict=True))
-    worn = Form("worn", [*(look.get(key, "none") for key in LOOKS), Form("tuple", values[:count])], body.span(node))
+    worn = Form(
+        "worn", [*(look.get(key, "none") for key in LOOKS), Form("tuple", values[:count])], body.span(node)
+    )
     return body.form("emit", [worn], node)
 
 

@@ -14,7 +14,6 @@ from niwaki import (
     emit,
     forward,
     gaussian,
-    kernels,
     limb,
     mirrored,
     model,
@@ -89,7 +88,10 @@ def test_positions_in_frames_have_the_slopes_of_central_differences() -> None:
         low, high = np.array(sample.parts[part].shapes[0].aabb())
         assert np.all(low - 1e-9 <= frame[0]) and np.all(frame[0] <= high + 1e-9)
         for k, movable in enumerate(positions.movables):
-            at = [placer.positions({movable[0]: positions.ranges()[k, 0] + by}, free).frame(part, 0) for by in (h, -h)]
+            at = [
+                placer.positions({movable[0]: positions.ranges()[k, 0] + by}, free).frame(part, 0)
+                for by in (h, -h)
+            ]
             up, down = (frame[0] + shares @ frame[1:] for frame in at)
             np.testing.assert_allclose(slopes[:, k], (up - down) / (2 * h), atol=1e-6)
             moving += bool(np.any(slopes[:, k]))
@@ -114,7 +116,13 @@ def test_collisions_are_those_of_placed_shapes() -> None:
     settings: dict[str, Any] = {"score": no_self_intersection(), "seed": 1}
     assert len(run(two, forward(5), args=(9.0,), **settings)) == 5
     with pytest.raises(nw.errors.InputError, match="every"):
-        run(two, forward(5), args=(0.0,), choices={"arrayed[0]/leg/lean": 0.0, "arrayed[1]/leg/lean": 0.0}, **settings)
+        run(
+            two,
+            forward(5),
+            args=(0.0,),
+            choices={"arrayed[0]/leg/lean": 0.0, "arrayed[1]/leg/lean": 0.0},
+            **settings,
+        )
 
 
 @model
