@@ -88,7 +88,8 @@ class ChainMaker(Maker):
                         f"def {w}(u):",
                         f"    emit(box((u, {v}, 0), (1, 2, 1)))",
                         "    return u + knot(u)",
-                        f"f = f + place({frame}, {w}, x) + place((0, 0, {v}), {self.pick(w, f'lambda u: {w}(u)')}, 1.0)",
+                        f"f = f + place({frame}, {w}, x)",
+                        f"f = f + place((0, 0, {v}), {self.pick(w, f'lambda u: {w}(u)')}, 1.0)",
                     ]
                 ]
                 * 2

@@ -1,7 +1,7 @@
 """Names of sites: the components that choices, calls and loops add to readable addresses.
 
-    ship/      a call of a function, a call of a value, a future, a `place`: the callee's short name (the part after the last
-               dot; `lambda`), the name of a called variable, or `apply` for any other called value
+    ship/      a call of a function, a call of a value, a future, a `place`: the callee's short name (the part after the
+               last dot; `lambda`), the name of a called variable, or `apply` for any other called value
     i[3]/      an iteration of `for i in ...` (the first name of a pattern), also in a comprehension; `while[3]`;
                `map[3]`, `filter[3]`, `sorted[3]`, `min[3]`, `max[3]` if these call a function;
                `mirrored[1]`, `arrayed[3]`

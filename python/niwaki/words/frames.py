@@ -1,4 +1,4 @@
-"""Frames: `look`, from where a guide sees the scene, and `place`, `mirrored` and `arrayed`, which put calls into frames."""
+"""Frames: `look`, from where a guide sees the scene; `place`, `mirrored` and `arrayed`, which put calls into frames."""
 
 from __future__ import annotations
 
@@ -60,7 +60,8 @@ def place(frame: Placing, function: Callable[..., T], *args: Any) -> T:
     """Call a function so that all shapes that it emits, also in calls below it, are in a frame.
 
     The function draws, scores and returns as in any call; its points and directions are those of the frame. A `place`
-    inside of the function is relative to this frame. Calls of memoised functions belong to no caller, and are not placed.
+    inside of the function is relative to this frame. Calls of memoised functions belong to no caller, and are not
+    placed.
 
     Parameters
     ----------

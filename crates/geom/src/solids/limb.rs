@@ -177,7 +177,11 @@ mod tests {
         let ends = 2.0 / 3.0 * PI * 0.027 * (1.0 + limb::DOME);
         sound(&shape, PI * 0.09 * 2.0 + ends, 0.02);
         assert!((shape.aabb().low.y + 0.3).abs() < 1e-12);
-        sound(&limb(vec3(1.0, 0.0, 3.0), vec3(2.0, 2.0, 0.0), false), PI * 0.09 * 14_f64.sqrt() + ends - 2.0 / 3.0 * PI * 0.027, 0.02);
+        sound(
+            &limb(vec3(1.0, 0.0, 3.0), vec3(2.0, 2.0, 0.0), false),
+            PI * 0.09 * 14_f64.sqrt() + ends - 2.0 / 3.0 * PI * 0.027,
+            0.02,
+        );
     }
 
     #[test]
@@ -190,7 +194,10 @@ mod tests {
                 assert!(!intersects(&trunk, &branch, rule) && !intersects(&branch, &trunk, rule));
             }
             // The end of a limb is no joint, and it begins beside the trunk.
-            assert!(intersects(&trunk, &limb(b, low, true), rule) && intersects(&limb(b, low, true), &trunk, rule));
+            assert!(
+                intersects(&trunk, &limb(b, low, true), rule)
+                    && intersects(&limb(b, low, true), &trunk, rule)
+            );
         }
         let cube = Shape::cuboid(vec3(0.0, 0.0, 0.0), vec3(1.0, 1.0, 1.0), &Look::default()).unwrap();
         assert!(!intersects(&cube, &trunk, Rule::Solid));
@@ -199,7 +206,8 @@ mod tests {
 
     #[test]
     fn frames_move_joints() {
-        let frame = Placement { rotation: Mat3::rotation(Vec3::AXES[2], 0.7), translation: vec3(5.0, 1.0, 2.0) };
+        let frame =
+            Placement { rotation: Mat3::rotation(Vec3::AXES[2], 0.7), translation: vec3(5.0, 1.0, 2.0) };
         let [a, b] = [vec3(0.0, 2.0, 0.0), vec3(1.5, 2.5, 0.0)];
         let placed = |shape: Shape| shape.in_frame(&frame).unwrap();
         let trunk = placed(limb(vec3(0.0, 0.0, 0.0), a, true));

@@ -121,12 +121,8 @@ mod tests {
             up: vec3(0.6, 0.0, 0.8),
             radius,
         };
-        let bark = Bark {
-            low: vec3(-2.0, 0.2, 0.0),
-            low_radius: 1.9,
-            high: vec3(3.0, 0.2, 0.0),
-            high_radius: 1.8,
-        };
+        let bark =
+            Bark { low: vec3(-2.0, 0.2, 0.0), low_radius: 1.9, high: vec3(3.0, 0.2, 0.0), high_radius: 1.8 };
         let frames = [frame(2.0, 0.5), frame(2.3, 0.45), frame(5.0, 0.4)];
         for onto in [None, Some(bark)] {
             let shape = Shape::segment(frames, onto, &Look::default()).unwrap();

@@ -350,7 +350,10 @@ pub mod looks {
         "material",
         "The name of a material, which files keep; pictures do not show it.",
     );
-    const BEVEL: Parameter = optional::<Length>("bevel", "Rounding of the edges, drawn only: a share of half the smallest side, 0 for sharp edges.");
+    const BEVEL: Parameter = optional::<Length>(
+        "bevel",
+        "Rounding of the edges, drawn only: a share of half the smallest side, 0 for sharp edges.",
+    );
 
     /// The look of a flat shape.
     pub const COLORED: &[Parameter] = &[COLOR];

@@ -339,20 +339,32 @@ mod tests {
         ];
         assert_eq!(shape_of("limb", &color).color(), Some([1.0, 0.5, 0.0]));
         let [.., joint, _] = &color;
-        assert_eq!(code("limb", &color.clone().map(|arg| if arg == *joint { V::str("bent") } else { arg })), "type-mismatch");
+        assert_eq!(
+            code("limb", &color.clone().map(|arg| if arg == *joint { V::str("bent") } else { arg })),
+            "type-mismatch"
+        );
         let worn = |look: [V; 4]| {
             let [a, b, c, d] = look;
-            call("worn", &[a, b, c, d, V::tuple(vec![V::Shape(cube.clone()), V::Shape(shape_of("limb", &color))])])
+            call(
+                "worn",
+                &[a, b, c, d, V::tuple(vec![V::Shape(cube.clone()), V::Shape(shape_of("limb", &color))])],
+            )
         };
         let painted = worn([V::str("#fff"), V::None, V::real(0.25), V::str("oak")]).unwrap();
         let V::Tuple(painted) = painted else { panic!("{painted:?}") };
         let [V::Shape(cube), V::Shape(limb)] = painted.items() else { panic!("{painted:?}") };
-        assert_eq!((cube.color(), cube.roughness(), cube.material()), (Some([1.0; 3]), Some(0.25), Some("oak")));
+        assert_eq!(
+            (cube.color(), cube.roughness(), cube.material()),
+            (Some([1.0; 3]), Some(0.25), Some("oak"))
+        );
         assert_eq!((limb.color(), limb.material()), (Some([1.0, 0.5, 0.0]), Some("oak")));
         assert_eq!(limb.world_mesh().vertices(), shape_of("limb", &color).world_mesh().vertices());
         for wrong in [V::str("oak"), V::real(1.0)] {
             let fault = worn([wrong, V::None, V::None, V::None]).unwrap_err();
-            assert!(fault.code == "type-mismatch" && fault.message.starts_with("`color` of `emit`"), "{fault}");
+            assert!(
+                fault.code == "type-mismatch" && fault.message.starts_with("`color` of `emit`"),
+                "{fault}"
+            );
         }
         assert_eq!(worn([V::None, V::Int(2), V::None, V::None]).unwrap_err().code, "bad-shape");
         assert_eq!(worn([V::None, V::None, V::None, V::str("")]).unwrap_err().code, "bad-shape");

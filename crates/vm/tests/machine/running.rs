@@ -501,7 +501,8 @@ fn choices_see_the_frame_of_their_function() {
         flip("b"),
         flip("first")
     );
-    let program = compile_with_scope(&parse(&text).expect("core form"), vec![], Scope::All).expect("a program");
+    let program =
+        compile_with_scope(&parse(&text).expect("core form"), vec![], Scope::All).expect("a program");
     let (mut machine, mut frames) = (Machine::new(&program, Limits::default()), Frames::default());
     let mut state = machine.start(&[], true).expect("a start");
     machine.finish(&mut state, &mut frames).expect("a run");
