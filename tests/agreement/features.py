@@ -80,7 +80,8 @@ def m():
 def leg(h, r):
     lean = gaussian(0, 0.1)
     emit(box((lean, h / 2, 0), (r, h, r)), name="leg")
-    emit(limb((0, h, 0), (0, h + 1, lean), r, 0.1), [segment(*[((0, y, 0), (0, 1, 0), (0, 0, -1), 1 - y / 9) for y in (0, 0.2, 4)])])
+    rings = [((0, y, 0), (0, 1, 0), (0, 0, -1), 1 - y / 9) for y in (0, 0.2, 4)]
+    emit(limb((0, h, 0), (0, h + 1, lean), r, 0.1), [segment(rings[0], rings[1], rings[2])])
     return lean
 def pair(h):
     frame = look((h, 0, 0), (gaussian(), 0, 1))
@@ -102,7 +103,7 @@ def m():
     place((2, 1), blot, h), place(((0, h), rotation((0, 0, 1), h)), blot, 1)
     kept = leg if flip() else lambda a, b: place((0, 0, a), leg, a, b) * 2
     turned = [place(rotation((0, h, 1), k), kept, 1.0, 0.2) for k in range(2)]
-    return out, turned, place((1, 0, 0), shared, 1), place((1, 2, 3), math.sqrt, h) if False else shared(1), smoothstep(h, 1, 3), smoothstep(h - 1), linspace(h, 3, 1), skew(1.0 if h < 3 else h)
+    return out, turned, place((1, 0, 0), shared, 1), shared(1), smoothstep(h, 1, 3), smoothstep(h - 1), linspace(h, 3, 1), skew(1.0 if h < 3 else h)
 """,
     "a frame that is none": """
 def leg(h):

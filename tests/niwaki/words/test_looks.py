@@ -9,9 +9,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from niwaki import box, cylinder, disc, emit, forward, mesh, model, run, run_python, uniform
+from niwaki import Target, box, cylinder, disc, emit, forward, mesh, model, run, run_python, uniform
 from niwaki.errors import ModelFault
-from niwaki.targets import Target
 from niwaki.words import color_difference, lerp, rgb, to_hsv
 
 RED = (200 / 255, 60 / 255, 30 / 255)
