@@ -89,10 +89,10 @@ def disagreement(text: str, seed: int, steps: int, tally: Tally | None = None) -
     return difference or ""
 
 
-def look(seeds: Iterator[int], steps: int, memo: bool = False) -> Tally:
+def look(seeds: Iterator[int], steps: int, memo: bool = False, place: bool = False) -> Tally:
     tally = Tally()
     for seed in seeds:
-        whole = program(seed, memo=memo)
+        whole = program(seed, memo=memo, place=place)
         if disagreement(whole.text, seed, steps, tally):
             small = shrink(whole, lambda text: bool(disagreement(text, seed, steps)))  # noqa: B023
             pytest.fail(f"seed {seed}\n{small.text}\n{disagreement(small.text, seed, steps)}")
@@ -166,6 +166,12 @@ def test_strategies_agree_on_solids_whose_points_are_choices() -> None:
         assert not disagreement(text, seed, 100, tally)
     # Polygons that cross themselves are impossible, and are left again.
     assert tally.programs > 6 and tally.accepted > 0.1 * tally.proposals / 4
+
+
+def test_strategies_agree_on_random_programs_in_frames() -> None:
+    tally = look(iter(range(40)), 100, memo=True, place=True)
+    assert tally.programs > 0.4 * 40
+    assert tally.accepted > 0.1 * tally.proposals / 4
 
 
 @pytest.mark.soak

@@ -28,7 +28,7 @@ Row = tuple[str, str, str | None, str]
 _HEAD = '''"""Shapes, the things that `emit` adds to a scene. Right-handed, y up, metres by default.
 
 A point is a 3-tuple, a list or a `vec`. Flat shapes lie on a plane parallel to z = 0, and are seen from +z. A colour
-is `(r, g, b)` in [0, 1]. A rotation is three rows of three numbers, as `rotation(axis, angle)` gives. In a
+is `(r, g, b)` in [0, 1] or a name. A rotation is three rows of three numbers, as `rotation(axis, angle)` gives. In a
 plain-Python run a shape is the engine's own `Shape`.
 
 Written by tests/house/words.py from the engine's table of solids.

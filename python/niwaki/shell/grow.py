@@ -13,8 +13,8 @@ from typing import Annotated, Any
 import typer
 
 import niwaki as nw
+from niwaki import _engine, shell
 from niwaki import result as results
-from niwaki import shell
 from niwaki.errors import InputError
 from niwaki.errors.folders import held_folder
 from niwaki.errors.schema import fitted
@@ -217,7 +217,29 @@ def _write(
                 files.write(sample, folder, number)
 
 
+#: The share of the target below which a result is called a failure.
+LITTLE = 0.1
+
+
+def _too_little(result: nw.Result) -> str:
+    """Return a warning that the best run covers little of its target, with the constraint that stopped most runs."""
+    fit = result.best.fit
+    if fit is None or fit.covered >= LITTLE:
+        return ""
+    text = f"warning: the best run covers only {fit.covered:.1%} of the target"
+    blame = getattr(getattr(result.info, "losses", None), "blame", ())
+    if not blame:
+        return text
+    first = blame[0]
+    cure = (_engine.SKETCHES.get(first.constraint) or ("", ""))[1]
+    if first.constraint == "no_self_intersection":
+        cure += ', or let limbs bend with `joint="round"`; `--rule none` allows all overlaps'
+    return f"{text}: most lost runs ended because {first}\n  {cure}"
+
+
 def _summary(result: nw.Result, place: Path, clock: Clock, verbose: bool) -> None:
+    if warning := _too_little(result):
+        typer.secho(warning, fg="red", err=True)
     if (
         verbose
         and isinstance(result.info, results.info.ImproveInfo)

@@ -1,7 +1,7 @@
 """Shapes, the things that `emit` adds to a scene. Right-handed, y up, metres by default.
 
 A point is a 3-tuple, a list or a `vec`. Flat shapes lie on a plane parallel to z = 0, and are seen from +z. A colour
-is `(r, g, b)` in [0, 1]. A rotation is three rows of three numbers, as `rotation(axis, angle)` gives. In a
+is `(r, g, b)` in [0, 1] or a name. A rotation is three rows of three numbers, as `rotation(axis, angle)` gives. In a
 plain-Python run a shape is the engine's own `Shape`.
 
 Written by tests/house/words.py from the engine's table of solids.
@@ -42,6 +42,7 @@ def box(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """A box.
 
@@ -58,15 +59,19 @@ def box(
     taper_axis
         "x", "y" or "z".
     bevel
-        Width of the bevelled edges, drawn only.
+        Rounding of the edges, drawn only: a share of half the smallest side, 0 for sharp edges.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
-    return make("box", center, size, rotation, taper, taper_axis, bevel, color, metalness, roughness)
+    return make(
+        "box", center, size, rotation, taper, taper_axis, bevel, color, metalness, roughness, material
+    )
 
 
 def cylinder(
@@ -80,6 +85,7 @@ def cylinder(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """A cylinder, or a cone cut off when `top_radius` is given.
 
@@ -98,16 +104,18 @@ def cylinder(
     rotation
         Turns it about its middle.
     bevel
-        Width of the bevelled edges, drawn only.
+        Rounding of the edges, drawn only: a share of half the smallest side, 0 for sharp edges.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
     return make(
-        "cylinder", center, radius, length, axis, top_radius, rotation, bevel, color, metalness, roughness
+        "cylinder", center, radius, length, axis, top_radius, rotation, bevel, color, metalness, roughness, material
     )
 
 
@@ -121,6 +129,7 @@ def cone(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """A cone.
 
@@ -137,15 +146,17 @@ def cone(
     rotation
         Turns it about its middle.
     bevel
-        Width of the bevelled edges, drawn only.
+        Rounding of the edges, drawn only: a share of half the smallest side, 0 for sharp edges.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
-    return make("cone", center, radius, length, axis, rotation, bevel, color, metalness, roughness)
+    return make("cone", center, radius, length, axis, rotation, bevel, color, metalness, roughness, material)
 
 
 def limb(
@@ -155,9 +166,11 @@ def limb(
     end_radius: float,
     start_normal: VecLike | None = None,
     end_normal: VecLike | None = None,
+    joint: str | None = None,
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """A tapering, bending segment between two rings; limbs that share a ring only touch.
 
@@ -169,15 +182,19 @@ def limb(
         Their radii, greater than 0.
     start_normal, end_normal
         Their directions; from `start` to `end` when left out.
+    joint
+        "round": it begins with a ball, and may overlap the parts in which its start lies.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
     return make(
-        "limb", start, end, start_radius, end_radius, start_normal, end_normal, color, metalness, roughness
+        "limb", start, end, start_radius, end_radius, start_normal, end_normal, joint, color, metalness, roughness, material
     )
 
 
@@ -189,6 +206,7 @@ def segment(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """A bent, tapering segment of a tree: a wedge from `start` to `split`, a clean cone from there to `end`.
 
@@ -202,13 +220,15 @@ def segment(
     onto
         What the base lies on, `(low, low_radius, high, high_radius)`.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
-    return make("segment", start, split, end, onto, color, metalness, roughness)
+    return make("segment", start, split, end, onto, color, metalness, roughness, material)
 
 
 def mesh(
@@ -220,6 +240,7 @@ def mesh(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """A closed mesh of triangles.
 
@@ -236,13 +257,15 @@ def mesh(
     scale
         Factor on all lengths, greater than 0.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
-    return make("mesh", vertices, faces, center, rotation, scale, color, metalness, roughness)
+    return make("mesh", vertices, faces, center, rotation, scale, color, metalness, roughness, material)
 
 
 def stroke(
@@ -259,7 +282,7 @@ def stroke(
     end_width
         Width of the end; `width` when left out.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     """
     return make("stroke", start, end, width, end_width, color)
 
@@ -278,7 +301,7 @@ def ellipse(
     angle
         Of the length, radians from +x to +y.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     """
     return make("ellipse", center, length, width, angle, color)
 
@@ -293,7 +316,7 @@ def disc(center: VecLike, radius: float, color: Color | None = None) -> Any:
     radius
         Greater than 0.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     """
     return make("disc", center, radius, color)
 
@@ -304,6 +327,7 @@ def sphere(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """A sphere.
 
@@ -314,13 +338,15 @@ def sphere(
     radius
         Greater than 0.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
-    return make("sphere", center, radius, color, metalness, roughness)
+    return make("sphere", center, radius, color, metalness, roughness, material)
 
 
 def ellipsoid(
@@ -330,6 +356,7 @@ def ellipsoid(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """An ellipsoid: a sphere with a length along each axis.
 
@@ -342,13 +369,15 @@ def ellipsoid(
     rotation
         Turns it about its middle.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
-    return make("ellipsoid", center, size, rotation, color, metalness, roughness)
+    return make("ellipsoid", center, size, rotation, color, metalness, roughness, material)
 
 
 def wedge(
@@ -359,6 +388,7 @@ def wedge(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """A wedge: a gable roof whose ridge runs along x.
 
@@ -373,13 +403,15 @@ def wedge(
     ridge
         Place of the ridge across: 0 in the middle, -1 and 1 above the edges at -z and +z (a ramp).
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
-    return make("wedge", center, size, rotation, ridge, color, metalness, roughness)
+    return make("wedge", center, size, rotation, ridge, color, metalness, roughness, material)
 
 
 def torus(
@@ -391,6 +423,7 @@ def torus(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """A ring.
 
@@ -407,13 +440,15 @@ def torus(
     rotation
         Turns it about its middle.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
-    return make("torus", center, radius, tube, axis, rotation, color, metalness, roughness)
+    return make("torus", center, radius, tube, axis, rotation, color, metalness, roughness, material)
 
 
 def arch(
@@ -424,6 +459,7 @@ def arch(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """An arch: a half ring on two legs, as of a bridge or a door.
 
@@ -438,13 +474,15 @@ def arch(
     rotation
         Turns it about its middle.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
-    return make("arch", center, size, thickness, rotation, color, metalness, roughness)
+    return make("arch", center, size, thickness, rotation, color, metalness, roughness, material)
 
 
 #: The functions for shapes; the engine has one of the same name for each.

@@ -84,7 +84,7 @@ FLAGS = {
     "--receiver": ("--receiver", "FILE", "A mesh that the shadow falls on."),
     "--voxel": ("--voxel", "SIZE", "Cell size."),
     "--sigma": ("--sigma", "NUMBER", "Strictness of the match; smaller is stricter."),
-    "--rule": ("--rule", "solid|surface", "Which parts count as intersecting."),
+    "--rule": ("--rule", "solid|surface|none", "Which parts count as intersecting; none: parts may overlap."),
     "--rules": ("--rules", "FILE", "A TOML file with rules for the regions."),
     "--strictness": ("--strictness", "NUMBER", "Strictness of the rules; larger is stricter."),
     "--style": ("--style", "vines|lightning", "The model that draws the letters."),

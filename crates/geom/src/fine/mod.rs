@@ -34,12 +34,12 @@ mod tests {
     #[test]
     fn all_kinds() {
         let plain = Look::default();
-        let sharp = Look { bevel: Some(0.0), ..plain };
+        let sharp = Look { bevel: Some(0.0), ..plain.clone() };
         let (o, size) = (vec3(1.0, 2.0, 3.0), vec3(2.0, 1.0, 4.0));
         sound(&Shape::cuboid(o, size, &plain).unwrap(), 8.0, 0.02);
         sound(&Shape::cuboid(o, size, &sharp).unwrap(), 8.0, 1e-9);
         sound(
-            &Shape::cuboid(o, vec3(1.0, 1.0, 1.0), &Look { bevel: Some(1.0), ..plain }).unwrap(),
+            &Shape::cuboid(o, vec3(1.0, 1.0, 1.0), &Look { bevel: Some(1.0), ..plain.clone() }).unwrap(),
             std::f64::consts::FRAC_PI_6,
             0.03,
         );

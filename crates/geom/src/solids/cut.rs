@@ -190,10 +190,10 @@ impl Cut {
         &self.solids[0]
     }
 
-    /// The cut, moved.
+    /// The cut in a frame, which may reflect it.
     pub(crate) fn placed(&self, placement: &Placement) -> Result<Cut, GeomError> {
         let solids =
-            self.solids.iter().map(|shape| shape.placed_after(placement)).collect::<Result<_, _>>()?;
+            self.solids.iter().map(|shape| shape.in_frame(placement)).collect::<Result<_, _>>()?;
         Ok(Cut { solids, steps: self.steps.clone(), shown: self.shown.clone() })
     }
 

@@ -138,6 +138,11 @@ macro_rules! solids {
                 match self { $(Solid::$variant(solid) => Measured::frame(solid, placement),)* }
             }
 
+            /// [`Measured::mirrored`].
+            pub(crate) fn mirrored(&self) -> Solid {
+                match self { $(Solid::$variant(solid) => Solid::$variant(Measured::mirrored(solid)),)* }
+            }
+
             /// [`Measured::fine`].
             pub(crate) fn fine(&self, bevel: Option<f64>) -> FineMesh {
                 match self { $(Solid::$variant(solid) => solid.fine(bevel),)* }
