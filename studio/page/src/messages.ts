@@ -242,6 +242,7 @@ export interface Parameter {
   name: string;
   default: any;
   is_required: boolean;
+  is_whole: boolean;
 }
 
 /** A region of a drawing: its share of the picture, and its colour in the file. */

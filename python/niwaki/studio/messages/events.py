@@ -33,6 +33,8 @@ class Parameter(Struct):
     name: str
     default: Any = None
     is_required: bool = False
+    #: Whether the parameter is a whole number: by its annotation, or else by its default.
+    is_whole: bool = False
 
 
 class RegionInfo(Struct):

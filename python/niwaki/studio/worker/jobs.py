@@ -17,6 +17,7 @@ from niwaki.shell.references import ModelReference
 from niwaki.studio.messages import Answer, Change, Ghost, Grow, Key, Progressed, Question, Regrow, TargetAsk
 from niwaki.studio.problems import CommandError
 from niwaki.studio.worker import asks, models, runs, shapes, variety
+from niwaki.studio.worker.places import as_drawn
 from niwaki.studio.worker.thinning import GHOST_TRIANGLES
 
 #: Rounds of `improve` at effort 1: its default.
@@ -108,7 +109,9 @@ def change(job: Change, send: Any) -> Answer:
     for address in job.changes:
         if address not in choices:
             raise CommandError("no-choice", f"the result has no choice `{address}`")
-    choices |= runs.values(job.changes)
+    families = original.families
+    for address, value in runs.values(job.changes).items():
+        choices[address] = as_drawn(families.get(address, ""), value, choices[address])
     with translated(search.model.name, choices=choices):
         trace = search.task.replay(choices, search.seed)
     sample = Sample.of_trace(trace, search, original.seed)

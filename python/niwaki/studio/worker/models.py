@@ -84,7 +84,13 @@ def parameters(model: Model[..., Any]) -> list[Parameter]:
     """List the parameters of a model, with the defaults that a page can show."""
     rows = []
     for parameter in inspect.signature(model.function).parameters.values():
-        is_required = parameter.default is inspect.Parameter.empty
-        is_plain = isinstance(parameter.default, (bool, int, float, str))
-        rows.append(Parameter(parameter.name, parameter.default if is_plain else None, is_required))
+        default = parameter.default
+        is_required = default is inspect.Parameter.empty
+        is_plain = isinstance(default, (bool, int, float, str))
+        is_number = isinstance(default, int | float) and not isinstance(default, bool)
+        # With `from __future__ import annotations` an annotation is a text.
+        is_real = parameter.annotation in (float, "float") or isinstance(default, float)
+        rows.append(
+            Parameter(parameter.name, default if is_plain else None, is_required, is_number and not is_real)
+        )
     return rows

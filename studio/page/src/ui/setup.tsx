@@ -72,7 +72,6 @@ const isAnyChanged = ({ model, arguments: values }: View): boolean =>
 function Argument({ parameter }: { parameter: Parameter }) {
   const value = store.view.value!.arguments[parameter.name] ?? parameter.default;
   const set = (argument: unknown) => void store.tell({ kind: "set", arguments: { [parameter.name]: argument } });
-  const isWhole = Number.isInteger(parameter.default);
   if (typeof parameter.default === "boolean") {
     return (
       <label class="row">
@@ -92,7 +91,7 @@ function Argument({ parameter }: { parameter: Parameter }) {
   return (
     <label class="row">
       <span>{parameter.name}</span>
-      <Field type="number" step={isWhole ? 1 : "any"} value={value} onEnd={(text) => text !== "" && set(Number(text))} />
+      <Field type="number" step={parameter.is_whole ? 1 : "any"} value={value} onEnd={(text) => text !== "" && set(Number(text))} />
     </label>
   );
 }
