@@ -21,7 +21,7 @@ from websockets.sync.client import connect as dial
 
 from niwaki.errors import NiwakiError
 from niwaki.studio.frames import unpack
-from niwaki.studio.messages import PROTOCOL, Command, Difference, Picture, Regions, Shape
+from niwaki.studio.messages import PROTOCOL, Command, Difference, Mask, Picture, Regions, Shape
 
 #: Events with a payload of bytes; they do not answer a command.
 FRAMES = ("shape", "picture", "regions")
@@ -119,7 +119,7 @@ class Studio:
         data = self._socket.recv(max(timeout, 0.0))
         if isinstance(data, bytes):
             header, payload = unpack(data)
-            message = msgspec.json.decode(header, type=Shape | Difference | Picture | Regions)
+            message = msgspec.json.decode(header, type=Shape | Difference | Picture | Regions | Mask)
             if isinstance(message, Shape):
                 self.shapes.append((message, bytes(payload)))
             elif isinstance(message, Difference):

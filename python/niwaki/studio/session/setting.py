@@ -44,8 +44,10 @@ def set_values(session: Session, window: Window, command: m.Set) -> None:
             raise CommandError("too-many", f"a model has at most {ARGUMENTS} arguments")
     if changes:
         session.step("set", changes)
-    if command.arguments is not None and session.document.picked is not None:
-        session.start(reshaping.reshape(session))
+    if command.arguments is not None:
+        if session.document.picked is not None:
+            session.start(reshaping.reshape(session))
+        session.start(loading.load_ghost(session, window))
 
 
 def _typed(session: Session, arguments: dict[str, Any]) -> dict[str, Any]:
