@@ -24,7 +24,7 @@ from niwaki.studio.frames import unpack
 from niwaki.studio.messages import PROTOCOL, Command, Difference, Mask, Picture, Regions, Shape
 
 #: Events with a payload of bytes; they do not answer a command.
-FRAMES = ("shape", "picture", "regions")
+FRAMES = ("shape", "picture", "regions", "mask")
 
 
 class StudioError(NiwakiError):
@@ -52,6 +52,8 @@ class Studio:
         The differences from targets received so far.
     pictures : list of (Picture or Regions, bytes)
         The pictures of drawings and the regions received so far.
+    masks : list of (Mask, bytes)
+        The masks of sketches received so far.
     events : list of dict
         All events received so far.
     """
@@ -68,6 +70,7 @@ class Studio:
         self.shapes: list[tuple[Shape, bytes]] = []
         self.differences: list[tuple[Difference, bytes]] = []
         self.pictures: list[tuple[Picture | Regions, bytes]] = []
+        self.masks: list[tuple[Mask, bytes]] = []
         self.events: list[dict[str, Any]] = []
         self.ask("hello", protocol=PROTOCOL)
 
@@ -124,6 +127,8 @@ class Studio:
                 self.shapes.append((message, bytes(payload)))
             elif isinstance(message, Difference):
                 self.differences.append((message, bytes(payload)))
+            elif isinstance(message, Mask):
+                self.masks.append((message, bytes(payload)))
             else:
                 self.pictures.append((message, bytes(payload)))
             event: dict[str, Any] = msgspec.to_builtins(message)

@@ -1,12 +1,12 @@
 // The socket: commands out, events and frames in. Only uploads and exported files take another way.
 
-import type { Command, Difference, Event, Picture, Regions, Shape } from "./messages";
+import type { Command, Difference, Event, Mask, Picture, Regions, Shape } from "./messages";
 import { PROTOCOL } from "./messages";
 
 type Sent = Command extends infer C ? (C extends { id?: number } ? Omit<C, "id"> : never) : never;
 export type Answer = Event | undefined;
 /** Headers of frames, that is of messages with bytes. */
-export type Frame = Shape | Difference | Picture | Regions;
+export type Frame = Shape | Difference | Picture | Regions | Mask;
 
 export interface Link {
   /** Sends a command; the promise gives its last answer, or fails with its problem. */

@@ -62,7 +62,7 @@ async def _load_glimpses(session: Session) -> None:
 
 
 def choose_model(session: Session, window: Window, command: m.ChooseModel) -> None:
-    """Choose another model; starred results stay."""
+    """Choose another model; the results of every model stay."""
     reference = command.reference
     if reference not in {model.reference for model in session.models}:
         reference = _of_named_file(session, reference)
@@ -72,8 +72,9 @@ def choose_model(session: Session, window: Window, command: m.ChooseModel) -> No
         )
         raise CommandError("unknown-model", text)
     session.losses = ""
-    fresh = {"model": reference or command.reference, "arguments": {}, "ask": m.Ask(), "held": []}
-    session.step("model", {**fresh, "results": session.document.starred(), "picked": None})
+    model = reference or command.reference
+    fresh = {"model": model, "arguments": {}, "ask": m.Ask(), "held": []}
+    session.step("model", {**fresh, "picked": session.document.first(model)})
     session.start(load(session))
 
 
