@@ -42,7 +42,7 @@ export function connect(
     const id = ++ids;
     return new Promise((resolve, reject) => {
       if (socket.readyState !== WebSocket.OPEN) {
-        reject(new CommandError("closed", "The studio does not answer. Is it still running?"));
+        reject(new CommandError("closed", ""));
         return;
       }
       waiting.set(id, { resolve, reject });
@@ -84,7 +84,7 @@ export function connect(
     };
     socket.onclose = () => {
       onState(false);
-      for (const request of waiting.values()) request.reject(new CommandError("closed", "The connection to the studio was lost."));
+      for (const request of waiting.values()) request.reject(new CommandError("closed", ""));
       waiting.clear();
       setTimeout(open, 700);
     };

@@ -188,5 +188,7 @@ Object.assign(window, {
     },
     pointOf: (address: string) => stage.pointOf(address),
     hold: (name: string) => store.holdOrFree(name),
+    tell: store.tell,
+    forgetChoice: store.forgetChoice,
   },
 });

@@ -172,6 +172,7 @@ function onEvent(event: Event): void {
 /** The time of this window's last command that can change the model. */
 let chosen = -Infinity;
 const CHOOSING = new Set(["model", "undo", "redo"]);
+export const forgetChoice = (): void => void (chosen = -Infinity);
 /** Tells that another window has chosen another model. */
 function onModel({ model: before }: View, { model: now }: View): void {
   if (before === null || now === null || before.reference === now.reference || performance.now() - chosen < 10_000) return;
@@ -179,7 +180,10 @@ function onModel({ model: before }: View, { model: now }: View): void {
   note(`Another window chose ${to}. The results of ${from} are kept: choose it again to see them.`);
 }
 
-const link = connect(onEvent, onFrame, (open) => (isOpen.value = open));
+const link = connect(onEvent, onFrame, (open) => {
+  isOpen.value = open;
+  if (!open) notices.value = [];
+});
 
 /** Commands that do not depend on held parts; all others wait for pending holds. */
 const INDEPENDENT = new Set<string>(["show", "describe", "judge", "difference", "export", "stop"]);
@@ -192,7 +196,8 @@ export async function tell(command: Parameters<typeof link.send>[0]): Promise<Ev
   try {
     return await link.send(command);
   } catch (problem) {
-    if (problem instanceof CommandError) note(problem.message, true);
+    // The page itself shows that the studio does not answer.
+    if (problem instanceof CommandError && problem.code !== "closed") note(problem.message, true);
     return undefined;
   }
 }

@@ -56,7 +56,9 @@ async def _load_glimpses(session: Session) -> None:
         for window in session.windows:
             window.put(data, kind)
 
-    scenes = [model.reference for model in session.models if model.kind == "scene"]
+    # A run of a drawing model is seldom more than a line; a model with a target shows what it is.
+    shown = [model for model in session.models if model.is_file or (model.kind == "scene" and model.target)]
+    scenes = [model.reference for model in shown]
     for reference in scenes[:GLIMPSES]:
         await session.desk.do(m.Glimpse(reference=reference), report)
 

@@ -54,11 +54,13 @@ export function frame(
       );
     }
   }
-  const between = (at: (corner: (typeof corners)[0]) => number, plus: number, minus: number) =>
-    (Math.max(...corners.map((corner) => at(corner) - plus * (distance - corner.near))) +
-      Math.min(...corners.map((corner) => at(corner) + minus * (distance - corner.near)))) /
-    2;
-  middle.addScaledVector(right, between(({ x }) => x, wide, wide)).addScaledVector(up, between(({ y }) => y, above, below));
+  // The contents are in the middle of the free part: both edges have the same share of room left.
+  const centre = (at: (corner: (typeof corners)[0]) => number, plus: number, minus: number) => {
+    const pairs = corners.flatMap((a) => corners.map((b) => (at(a) - at(b)) / (plus * (distance - a.near) + minus * (distance - b.near))));
+    const share = Math.max(...pairs);
+    return Math.max(...corners.map((corner) => at(corner) - share * plus * (distance - corner.near)));
+  };
+  middle.addScaledVector(right, centre(({ x }) => x, wide, wide)).addScaledVector(up, centre(({ y }) => y, above, below));
   camera.position.copy(middle).addScaledVector(away, distance);
   camera.near = distance / 100;
   camera.far = distance * 40;

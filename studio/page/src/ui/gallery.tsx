@@ -78,7 +78,7 @@ function ModelCard({ reference, shape, payload, isPresent }: { reference: string
   return (
     <button class="card" aria-pressed={isPresent} onClick={() => void store.tell({ kind: "model", reference })}>
       <canvas ref={canvas} width={WIDTH} height={HEIGHT} aria-hidden="true" />
-      <span class="caption">{title(reference).replace(/\.py$/, "")}</span>
+      <span class="caption">{title(reference).replace(/\.py$/, "").replace(/-/g, " ")}</span>
     </button>
   );
 }

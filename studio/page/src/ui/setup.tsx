@@ -176,10 +176,12 @@ function Sizes() {
   if (model === null || target === null) return null;
   return (
     <div class="sizes" role="group" aria-label="Sizes">
-      <p class="quiet" title="Width, height and depth in scene units">
-        target {size(target)}
-        <br />a run of the model {size(model)}
-      </p>
+      <dl title="Width, height and depth in scene units; the model's are those of a run">
+        <dt>target</dt>
+        <dd>{size(target)}</dd>
+        <dt>model</dt>
+        <dd>{size(model)}</dd>
+      </dl>
       {offers.map(({ text, label, target }) => (
         <p key={label} class="unfit" role="status">
           {text}
