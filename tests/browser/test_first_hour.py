@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from functools import partial
 from pathlib import Path
 
@@ -41,7 +42,7 @@ def test_the_first_screen_shows_a_run_says_what_is_missing_and_offers_six_models
     until(page, "window.__studio.shown.role == 'prior' && window.__studio.shown.parts.length > 8")
     assert button.is_enabled() and page.evaluate("window.__studio.seesAll")
     first(page, str(pile))
-    page.get_by_label("Target").select_option("box")
+    page.get_by_label("Target", exact=True).select_option("box")
     until(page, "window.__studio.view.ask.target")
     assert button.is_enabled()
 
@@ -49,7 +50,7 @@ def test_the_first_screen_shows_a_run_says_what_is_missing_and_offers_six_models
 def test_a_slider_at_a_whole_number_stays_a_slider_of_real_numbers(open_page, served, pile):
     page = open_page(served)
     choose(page, str(pile), 1, seed=4)
-    page.get_by_label("Target").select_option("box")
+    page.get_by_label("Target", exact=True).select_option("box")
     until(page, "window.__studio.view.ask.target?.source == 'box'")
     assert page.get_by_label("height").get_attribute("step") == "any"
     assert page.get_by_label("count").get_attribute("step") == "1"
@@ -119,11 +120,8 @@ def test_a_target_of_another_size_direction_or_place_is_offered_a_fit(open_page,
 
 def test_nothing_is_cut_off_in_small_and_large_windows_with_classic_scrollbars(browser, served):
     flags = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-    path = browser.browser_type.executable_path
-    from conftest import BROWSER
-
     chromium = browser.browser_type.launch(
-        executable_path=BROWSER or path,
+        executable_path=os.environ["NIWAKI_BROWSER"],
         chromium_sandbox=False,
         args=flags,
         ignore_default_args=["--hide-scrollbars"],

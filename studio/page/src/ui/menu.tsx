@@ -1,7 +1,7 @@
 // A menu that opens below its button. Escape, a click elsewhere, an undo, and leaving it with Tab close it.
 
 import type { ComponentChildren } from "preact";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
 
 interface Item {
   name: string;
@@ -22,7 +22,8 @@ export function Menu({ face, items, look, title, isNarrow, isDisabled }: {
   const holder = useRef<HTMLDivElement>(null);
   const button = useRef<HTMLButtonElement>(null);
   const entries = () => [...(holder.current?.querySelectorAll<HTMLElement>("[role=menuitem]") ?? [])];
-  useEffect(() => {
+  // At once, so that a key that follows the opening closes the menu.
+  useLayoutEffect(() => {
     if (!isOpen) return;
     entries()[0]?.focus();
     const onDown = (event: PointerEvent) => {
