@@ -10,6 +10,7 @@ from typing import Any
 from niwaki import stacks
 from niwaki.lang.lower import lowered
 from niwaki.lang.models import Model
+from niwaki.shell import references
 from niwaki.shell.references import ModelReference, find
 from niwaki.studio.messages import ModelInfo, Parameter
 from niwaki.studio.problems import CommandError
@@ -48,6 +49,15 @@ def reference(name: str) -> ModelReference:
         with loading(place) if stamp is not None else nullcontext():
             entry = _loaded[name] = (stamp, _structure(name) or find(name))
     return entry[1]
+
+
+def names_in(file: str) -> list[str]:
+    """Return the references of the models of a file that was named at the start."""
+    place = Path(file)
+    if place.suffix != ".py" or not place.is_file():
+        return [file]
+    with loading(place):
+        return references.names_in(file)
 
 
 def _structure(name: str) -> ModelReference | None:
