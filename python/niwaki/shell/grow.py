@@ -76,8 +76,10 @@ def grow(
         if earlier is None:
             reference, arguments = resume.model_of(context, source)
         else:
-            reference = earlier.reference
-            arguments = shell.arguments.read(reference.model, source.values, source.preset)
+            reference, arguments = earlier.reference, {}
+            if source.values or source.preset:
+                reason = "a result keeps its model without the names of the arguments"
+                raise InputError("flag-alone", flag="NAME=VALUE", other="MODEL", reason=reason)
         reference.model.program()
     single_file = out.single_file(formats.SINGLE_FILES, **flags.of_folders)
     earlier = earlier or origin.Origin.of_flags(origin_flags, patterns)
@@ -229,12 +231,15 @@ def _write(
     selected = [(number, result[number - 1]) for number in numbers if result[number - 1].primitives]
     names = [*files.names(), *(name for number, _ in selected for name in files.names(number))]
     with shell.results.results_folder(folder, data, [*names, *images.names(result, files.style)]):
-        with clock.part("pictures"):
-            images.write(result, folder, files.style)
+        with clock.part("draft"):
+            images.draft(result, folder, files.style)
         with clock.part("files"):
             files.write(best, folder)
             for number, sample in selected:
                 files.write(sample, folder, number)
+        # Last, since they take longest: Ctrl-C keeps the drafts and the files.
+        with clock.part("pictures"):
+            images.write(result, folder, files.style)
 
 
 def _summary(result: nw.Result, place: Path, clock: Clock) -> None:
