@@ -213,14 +213,14 @@ def test_a_held_part_is_grown_again_only_after_it_is_freed(open_page, served):
 
 
 def test_another_window_says_what_it_chose_and_every_model_keeps_its_results(open_page, served):
-    one, other = open_page(served), open_page(served)
-    choose(one, "spaceship", 2)
-    grow(one)
-    results = one.evaluate("window.__studio.view.results")
+    window, other = open_page(served), open_page(served)
+    choose(window, "spaceship", 2)
+    grow(window)
+    results = window.evaluate("window.__studio.view.results")
     # The message is for changes that this window has not made itself.
-    one.evaluate("window.__studio.forgetChoice()")
+    window.evaluate("window.__studio.forgetChoice()")
     first(other, "simple-ship")
-    one.locator(".notice", has_text="Another window chose simple-ship").wait_for()
+    window.locator(".notice", has_text="Another window chose simple-ship").wait_for()
     grow(other)
     first(other, "spaceship")
     until(other, "window.__studio.view.results.length >= 1")

@@ -191,23 +191,23 @@ class Origin:
             max_memory=flags.max_memory << 20,
         )
 
-    def reroll_parts(self, wanted: nw.Search, particles: int | None, threads: int | None) -> nw.Result:
+    def reroll_parts(self, goal: nw.Search, particles: int | None, threads: int | None) -> nw.Result:
         """Return the result with its parts grown again, once for each run of the requested search."""
-        check_room("--runs", wanted.runs, RUN, "run")
-        with translated(wanted.model.name):
-            trace = wanted.task.replay(self.sample.choices, wanted.seed)
-        start = nw.Sample.of_trace(trace, wanted, wanted.seed)
-        default_power = 1.0 if wanted.score.window is not None else search.POWER
-        power = getattr(wanted.method, "power", default_power)
+        check_room("--runs", goal.runs, RUN, "run")
+        with translated(goal.model.name):
+            trace = goal.task.replay(self.sample.choices, goal.seed)
+        start = nw.Sample.of_trace(trace, goal, goal.seed)
+        default_power = 1.0 if goal.score.window is not None else search.POWER
+        power = getattr(goal.method, "power", default_power)
         samples = []
-        for number in range(wanted.runs):
-            sample, seed = start, (wanted.seed + number) % 2**64
+        for number in range(goal.runs):
+            sample, seed = start, (goal.seed + number) % 2**64
             for pattern in self.reroll:
                 scene = [part.address for part in sample.parts]
-                for part in parts.matching_parts(pattern, sample.choices, scene, wanted.model.name):
+                for part in parts.matching_parts(pattern, sample.choices, scene, goal.model.name):
                     grown = sample.regrow(
                         part, particles or PARTICLES, power=power, seed=seed, threads=threads
                     )
                     sample = grown.best
             samples.append(sample)
-        return nw.Result(replace(wanted, polish=None), samples, wanted.seed)
+        return nw.Result(replace(goal, polish=None), samples, goal.seed)

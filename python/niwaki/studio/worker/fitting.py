@@ -49,8 +49,8 @@ def _turned(ask: TargetAsk, bounds: NDArray[np.float64], home: NDArray[np.float6
         return []
     size = bounds[1] - bounds[0]
     upright = np.abs(stood(np.array([size]))[0])
-    wanted = _slenderness(home[1] - home[0])
-    here, there = (abs(np.log(_slenderness(side) / wanted)) for side in (size, upright))
+    natural = _slenderness(home[1] - home[0])
+    here, there = (abs(np.log(_slenderness(side) / natural)) for side in (size, upright))
     # A printer's mesh stands on z = 0, and not on y = 0.
     raw = asks.shown(TargetAsk(ask.source))[0].bounds
     near = FOOT * float(np.ptp(raw, axis=0).max())
