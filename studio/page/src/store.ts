@@ -152,7 +152,7 @@ function onEvent(event: Event): void {
   if (event.kind === "state") {
     view.value = event.view as View;
     settle();
-    if (view.value.interrupted) note("The last search was interrupted when the studio ended. Press Grow to start it again.");
+    if (view.value.interrupted) note("Press Grow to start the interrupted search again.");
   } else if (event.kind === "patch" && view.value !== null) {
     const before = view.value;
     view.value = { ...view.value, ...event.changes };
@@ -271,7 +271,7 @@ export async function propose(): Promise<void> {
   const answer = await tell({ kind: "propose" });
   if (answer?.kind !== "offered") return;
   offers.value = answer.offers;
-  if (answer.offers.length === 0) note("The defaults cannot be changed: the model's file does not write them as numbers or texts.");
+  if (answer.offers.length === 0) note("The model's file does not write these defaults as numbers or texts.");
 }
 export function reroll(name: string, count: number): void {
   const holder = [...heldParts.value].find((part) => name === part || name.startsWith(`${part}/`));
@@ -308,10 +308,10 @@ export async function upload(file: File, isObstacle = false): Promise<void> {
   const answer = await fetch(`/upload?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
   const report = await answer.json();
   if (!answer.ok) {
-    note(`${file.name}: ${report.text}`, true);
+    note(`${file.name} cannot be used.\n${report.text}`, true);
     return;
   }
-  for (const text of report.notes as string[]) note(`${file.name}: ${text}`);
+  for (const text of report.notes as string[]) note(`${text}\n${file.name}`);
   if (report.reference) void tell({ kind: "model", reference: report.reference });
   else if (isObstacle) avoid({ source: report.source });
   else ask({ target: { source: report.source } });

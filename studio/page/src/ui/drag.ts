@@ -72,7 +72,10 @@ export class Drag {
     store.offers.value = outcome?.offers ?? [];
     store.hasDragged.value = (outcome?.changes.length ?? 0) > 0;
     if (outcome === null || outcome.reason !== "") {
-      if (outcome !== null) store.note(outcome.reason);
+      if (outcome !== null) {
+        const sentence = outcome.changes.length === 0 ? "This part cannot be moved there." : "The part has come as near as it can.";
+        store.note(`${sentence}\n${outcome.reason}`);
+      }
       if (outcome === null || outcome.changes.length === 0) showActive();
     }
   }
