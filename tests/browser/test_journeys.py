@@ -35,8 +35,8 @@ def test_fill(open_page, served):
     before = camera(page)
     with timed("first shape"):
         page.locator("button.primary").click()
-        until(page, "window.__studio.shown.triangles > 0")
-    assert page.evaluate("window.__studio.shown.role") in ("best", "result")
+        until(page, "['best', 'result'].includes(window.__studio.shown.role)")
+    assert page.evaluate("window.__studio.shown.triangles > 0")
     with timed("gallery"):
         until(page, "window.__studio.view.results.length >= 2")
     until(
@@ -119,6 +119,8 @@ def test_write(open_page, served, pile):
         with timed("error"):
             pile.write_text(good.replace("w = uniform(0.5, 2.0)", "w = [uniform(0.5, 2.0)]\n    w.append(1)"))
             until(page, "document.querySelector('.problem')")
+        assert "^^^" not in page.locator(".problem").inner_text()
+        page.locator(".problem summary").click()
         text = page.locator(".problem").inner_text()
         assert "pile.py:15" in text and "w.append(1)" in text and "^^^" in text
         assert page.evaluate("window.__studio.shown.triangles") == triangles
