@@ -192,8 +192,7 @@ impl Cut {
 
     /// The cut in a frame, which may reflect it.
     pub(crate) fn placed(&self, placement: &Placement) -> Result<Cut, GeomError> {
-        let solids =
-            self.solids.iter().map(|shape| shape.in_frame(placement)).collect::<Result<_, _>>()?;
+        let solids = self.solids.iter().map(|shape| shape.in_frame(placement)).collect::<Result<_, _>>()?;
         Ok(Cut { solids, steps: self.steps.clone(), shown: self.shown.clone() })
     }
 

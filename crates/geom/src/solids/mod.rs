@@ -30,8 +30,8 @@ pub mod segment;
 pub mod shape;
 mod sides;
 pub mod stroke;
-pub mod sweep;
 mod surface;
+pub mod sweep;
 #[cfg(test)]
 pub(crate) mod testing;
 pub mod torus;

@@ -153,6 +153,7 @@ LANGUAGE = (
         example='@model\ndef m(side):\n    return uniform(0, 1, label=f"width of {side}")\n',
         cure='@model\ndef m(side):\n    return uniform(0, 1, label="width of the side")\n',
     ),
+    Message(
         "not-emitted",
         "a shape is made here and never added to the scene",
         "nothing uses this shape",
