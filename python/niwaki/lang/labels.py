@@ -4,7 +4,7 @@
     bernoulli                            Tower?
     i[2]/storey/uniform                  Storey 3 › height
 
-`labelling` makes the labels of a program's sites when they are first asked for; this file puts them together for an
+`labelling` makes the labels of sites when they are first asked for. This file puts them together for an
 address. A program has a table of sites for each activation, a function or the body of a loop. Iterations count from 1.
 
 An iteration of a loop without a name of its own takes the name of what it makes: where a loop only calls `wing`, the
@@ -120,8 +120,8 @@ class Labels:
     def tree(self, addresses: Iterable[str]) -> list[tuple[int, str, str, bool]]:
         """Return the steps of addresses and of the calls around them, each once, those around before those inside.
 
-        A row has the number of the row around it (-1 for the outermost), the component of addresses, the step, and
-        whether the step takes the place of the one around it in a whole label.
+        A row has the number of the row around it (-1 for the outermost), the component of addresses, and the step. The
+        last entry is true if the step takes the place of the step around it in a whole label.
         """
         rows: list[tuple[int, str, str, bool]] = []
         numbers, places = {"": -1}, {-1: self._start()}
