@@ -20,7 +20,6 @@ from niwaki import _engine, kernels
 from niwaki.errors import ModelError, NiwakiError
 from niwaki.lang.compiled import task
 from niwaki.search.engine_runs import engine_form
-from niwaki.targets import Target
 from niwaki.targets.sketches import match_volume, no_self_intersection
 from niwaki.words import Bernoulli, Gaussian, clip
 from programs import shrink
@@ -134,7 +133,7 @@ def test_strategies_agree_on_a_wall_with_holes() -> None:
     """Each kernel, each with the sketches that see a hole: what a cut that is undone leaves equals a fresh run."""
     model = load(f"{HEADER}@model{HOLES}")
     solid: Any = nw.box((0, 1, 0), (3, 2, 0.3))
-    target = Target(solid.vertices(), solid.faces())
+    target = nw.Target(solid.vertices(), solid.faces())
     specs = (*no_self_intersection().specs, *match_volume(target, voxel=0.1).specs)
     for seed, kernel in enumerate(KERNELS[:5]):
         compiled = task(model, (), {}, specs if seed % 2 else specs[:1], max_steps=100_000)

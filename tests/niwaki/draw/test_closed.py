@@ -177,7 +177,9 @@ def test_what_cannot_be_cut_is_a_fault_at_the_operator() -> None:
             run(opened, 0.0)
         assert empty.value.code == "bad-shape" and "some of `a` must be outside" in str(empty.value)
         place = empty.value.stack[-1].span
-        assert place is not None and place.line == opened.__code__.co_firstlineno + 2
+        assert (
+            place is not None and "(shift, 0, 0)" in Path(__file__).read_text().splitlines()[place.line - 1]
+        )
         assert run(opened, 0.9) is not None
         with pytest.raises(nw.ModelFault) as kinds:
             run(wrong)

@@ -150,7 +150,8 @@ def test_derivatives_of_an_arm_follow_from_its_angle_and_length() -> None:
 def walled():
     """A wall on its own choice, with a window on another."""
     x = gaussian(0.0, 1.0)
-    across, up = uniform(-1.0, 1.0), uniform(0.5, 1.5)
+    across = uniform(-1.0, 1.0)
+    up = uniform(0.5, 1.5)
     emit(box((x, 1.0, 0.0), (4.0, 2.0, 0.2)) - box((x + across, up, 0.0), (0.5, 0.5, 1.0)), name="wall")
 
 
