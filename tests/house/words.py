@@ -111,7 +111,11 @@ def _fitted(opening: str, parts: list[str], closing: str, indent: str) -> str:
 
 def _call(arguments: str) -> str:
     line = f"    return make({arguments})"
-    return line if len(line) <= 110 else f"    return make(\n        {arguments}\n    )"
+    if len(line) <= 110:
+        return line
+    if len(arguments) > 102:
+        arguments = ",\n        ".join(arguments.split(", ")) + ","
+    return f"    return make(\n        {arguments}\n    )"
 
 
 def _indented(doc: str, by: int = 4) -> str:

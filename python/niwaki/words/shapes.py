@@ -115,7 +115,18 @@ def cylinder(
         The name of a material, which files keep; pictures do not show it.
     """
     return make(
-        "cylinder", center, radius, length, axis, top_radius, rotation, bevel, color, metalness, roughness, material
+        "cylinder",
+        center,
+        radius,
+        length,
+        axis,
+        top_radius,
+        rotation,
+        bevel,
+        color,
+        metalness,
+        roughness,
+        material,
     )
 
 
@@ -194,7 +205,18 @@ def limb(
         The name of a material, which files keep; pictures do not show it.
     """
     return make(
-        "limb", start, end, start_radius, end_radius, start_normal, end_normal, joint, color, metalness, roughness, material
+        "limb",
+        start,
+        end,
+        start_radius,
+        end_radius,
+        start_normal,
+        end_normal,
+        joint,
+        color,
+        metalness,
+        roughness,
+        material,
     )
 
 
