@@ -351,8 +351,8 @@ mod tests {
             )
         };
         let painted = worn([V::str("#fff"), V::None, V::real(0.25), V::str("oak")]).unwrap();
-        let V::Tuple(painted) = painted else { panic!("{painted:?}") };
-        let [V::Shape(cube), V::Shape(limb)] = painted.items() else { panic!("{painted:?}") };
+        let V::Tuple(painted) = painted else { panic!("not two shapes") };
+        let [V::Shape(cube), V::Shape(limb)] = painted.items() else { panic!("not two shapes") };
         assert_eq!(
             (cube.color(), cube.roughness(), cube.material()),
             (Some([1.0; 3]), Some(0.25), Some("oak"))
