@@ -366,7 +366,7 @@ def _every_shape() -> str:
     """A call of every word for shapes, with all of its parameters."""
     lines = ["def m():", "    x = uniform(1, 2)"]
     for word, (_, rows) in _engine.SHAPES.items():
-        data = {"vertices": "V", "faces": "F"}
+        data = {"vertices": "V", "faces": "F", "joint": "'round'"}
         arguments = (
             f"{row[0]}={data.get(row[0]) or _FITS[row[1]].format(k=k)}" for k, row in enumerate(rows)
         )

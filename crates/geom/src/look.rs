@@ -70,7 +70,7 @@ impl Paint {
 
     /// This paint, with the colour and the surface of another where it has none; a flat shape has no surface.
     pub fn over(&self, other: &Paint, is_flat: bool) -> Paint {
-        let first = |own: f32, other: f32| if own.is_nan() { other } else { own };
+        let first = |a: f32, b: f32| if a.is_nan() { b } else { a };
         let color = if self.color[0].is_nan() { other.color } else { self.color };
         let [metalness, roughness] = [0, 1].map(|k| first(self.finish[k], other.finish[k]));
         let material = self.material.clone().or_else(|| other.material.clone());

@@ -375,8 +375,8 @@ def _in_each(body: Body, node: ast.Call, word: str, frames: Expr) -> Expr:
 def _at_least(body: Body, node: ast.Call, name: str, count: int, expected: str) -> None:
     """Refuse keywords, and a call with too few arguments."""
     if len(node.args) < count:
-        found = str(len(node.args))
-        body.refuse("wrong-number-of-arguments", node, name=name, expected=expected, found=found)
+        count_text = str(len(node.args))
+        body.refuse("wrong-number-of-arguments", node, name=name, expected=expected, found=count_text)
     no_keywords(body, node, name)
 
 

@@ -33,7 +33,7 @@ FITS: dict[str, Any] = {
 REQUIRED: dict[str, dict[str, Any]] = {
     "torus": {"radius": 1.0},
     "arch": {"thickness": 0.2},
-    "limb": {"start": (0, 0, 0), "end": (0, 1, 0)},
+    "limb": {"start": (0, 0, 0), "end": (0, 1, 0), "joint": "round"},
     "segment": {"start": FRAME, "split": UPPER, "end": TOP},
     "mesh": {
         "vertices": [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
@@ -69,7 +69,8 @@ def test_the_error_about_a_wrong_type_names_its_parameter(word: Any, name: str) 
     arguments = {row[0]: FITS.get(row[1]) for row in rows} | REQUIRED.get(word.__name__, {})
     assert word(**arguments) is not None
     with pytest.raises(Exception, match=f"`{name}` of `{word.__name__}` takes") as caught:
-        word(**{**arguments, name: "#ff0000"})
+        # A text is a colour and a material.
+        word(**{**arguments, name: 3 if name in ("color", "material") else "#ff0000"})
     assert not any(f"`{other}`" in str(caught.value) for other in names if other != name)
 
 
@@ -83,7 +84,7 @@ def _limb(end: tuple[float, float, float], normal: Any = None) -> Any:
 
 @nw.model
 def colored() -> None:
-    nw.emit(nw.box((0, 0, 0), (1, 1, 1), color="#ff0000"))
+    nw.emit(nw.box((0, 0, 0), (1, 1, 1), color=3))  # type: ignore[arg-type]
 
 
 @nw.model
@@ -131,7 +132,7 @@ def frequent() -> int:
         "a limb of length 0",
         "a limb to nowhere",
         "a normal of length 0",
-        "a color as text",
+        "a color as a number",
         "a polygon of points of space",
         "a polygon that crosses itself",
         "a rate of 1e18",

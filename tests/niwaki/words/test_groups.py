@@ -169,7 +169,7 @@ def test_wrong_frames_are_reported_at_the_call(wrong: Any, code: str, message: s
 
 def test_calls_without_a_function_or_with_keywords_are_refused() -> None:
     @model
-    def nothing() -> None:
+    def frame_alone() -> None:
         place((0, 0, 0))  # type: ignore[call-arg]
 
     @model
@@ -177,7 +177,7 @@ def test_calls_without_a_function_or_with_keywords_are_refused() -> None:
         arrayed([(0, 0, 0)], leg, height=1.0)  # type: ignore[call-arg]
 
     with pytest.raises(ModelError, match="`place` takes a frame and a function, found 1"):
-        nothing.core()
+        frame_alone.core()
     with pytest.raises(ModelError, match="pass the value by position"):
         keyword.core()
 

@@ -301,20 +301,20 @@ impl Shape {
     /// # Errors
     /// `bad-shape` for a look that is out of range.
     pub fn worn(&self, look: &Look) -> Result<Shape, GeomError> {
-        let Some(given) = Paint::of(look)? else { return Ok(self.clone()) };
-        let paint = self.0.paint().over(&given, self.0.solid.is_flat());
+        let Some(coat) = Paint::of(look)? else { return Ok(self.clone()) };
+        let paint = self.0.paint().over(&coat, self.0.solid.is_flat());
         if paint == *self.0.paint() {
             return Ok(self.clone());
         }
         let Inner { solid, translation, rotation, aabb, width, number, .. } = &*self.0;
-        let own = match solid.form() {
+        let copy = match solid.form() {
             Form::Box | Form::Flat => Number::NONE,
             Form::Mesh | Form::Convex => Number::new(),
         };
         if solid.form() == Form::Convex
             && let Some(hull) = store::hull(number, || solid.hull(&self.placement()))
         {
-            store::keep_hull(&own, hull);
+            store::keep_hull(&copy, hull);
         }
         Ok(Shape(Arc::new(Inner {
             solid: solid.clone(),
@@ -323,7 +323,7 @@ impl Shape {
             paint: Some(Box::new(paint)),
             aabb: *aabb,
             width: *width,
-            number: own,
+            number: copy,
         })))
     }
 

@@ -133,15 +133,15 @@ pub fn sign<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
 pub fn smoothstep<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let [x, lo, hi] = args else { return Err(Fault::argument_count("`smoothstep` takes 3 arguments")) };
     let [x, lo, hi] = [real("smoothstep", x)?, real("smoothstep", lo)?, real("smoothstep", hi)?];
-    let (zero, one, width) = (S::from_f64(0.0), S::from_f64(1.0), hi - lo);
+    let (zero, full, width) = (S::from_f64(0.0), S::from_f64(1.0), hi - lo);
     if width.value() == 0.0 {
         return Err(Fault::division_by_zero("`smoothstep`: `lo` and `hi` are equal"));
     }
     let t = (x - lo) / width;
     let t = if t < zero {
         zero
-    } else if t > one {
-        one
+    } else if t > full {
+        full
     } else {
         t
     };

@@ -68,7 +68,7 @@ impl<S: Scalar> Placing<S> {
     }
 
     /// The frame that a model gives.
-    fn given(value: &Value<S>) -> Result<Placing<S>, Fault> {
+    fn of_model(value: &Value<S>) -> Result<Placing<S>, Fault> {
         let no_move = [number(0.0); 3];
         match value {
             Value::Rotation(r) => Ok(Placing { origin: no_move, rows: rows(r) }),
@@ -155,7 +155,7 @@ pub fn frame_in<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     if matches!(args[1], Value::None) {
         return Ok(args[0].clone());
     }
-    let inner = Placing::given(&args[1])?;
+    let inner = Placing::of_model(&args[1])?;
     Ok(match &args[0] {
         Value::None => inner.value(),
         outer => Placing::of(outer)?.after(&inner).value(),

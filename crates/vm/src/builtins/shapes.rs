@@ -133,11 +133,11 @@ impl<S: Scalar> Arguments<S> for WordCall<'_, S> {
 
     fn one_of(&self, at: usize, words: &[&str]) -> Result<usize, Fault> {
         let arg = self.required(at)?;
-        let found = match arg {
+        let place = match arg {
             Value::Str(text) => words.iter().position(|word| *word == &**text),
             _ => None,
         };
-        found.ok_or_else(|| {
+        place.ok_or_else(|| {
             let expected: Vec<String> = words.iter().map(|word| format!("{word:?}")).collect();
             self.named(at, &unfit(self.word.name, &expected.join(" or "), arg))
         })
@@ -233,10 +233,10 @@ const EMIT: Description = Description { name: "emit", doc: "", measures: &[], lo
 /// `worn(color, metalness, roughness, material, shapes)`: shapes, also in lists and tuples, in one tuple; those without a part of
 /// this look have it now. Other values stay as they are.
 pub(super) fn worn<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    let (given, shapes) = args.split_at(PAINTED.len());
-    let look = looks::read(&WordCall { word: &EMIT, args: given, mesh: None }, PAINTED, 0)?;
+    let (coat, shapes) = args.split_at(PAINTED.len());
+    let look = looks::read(&WordCall { word: &EMIT, args: coat, mesh: None }, PAINTED, 0)?;
     each_shape(&shapes[0], |shape| {
-        let worn = shape.worn(&look).map_err(|error| bad_shape(error).of_call("emit", given))?;
+        let worn = shape.worn(&look).map_err(|error| bad_shape(error).of_call("emit", coat))?;
         S::note(worn.address(), || S::noted(shape.address()));
         Ok(worn)
     })
@@ -373,8 +373,8 @@ mod tests {
             )
         };
         let painted = worn([V::str("#fff"), V::None, V::real(0.25), V::str("oak")]).unwrap();
-        let V::Tuple(painted) = painted else { panic!("{painted:?}") };
-        let [V::Shape(cube), V::Shape(limb)] = painted.items() else { panic!("{painted:?}") };
+        let V::Tuple(painted) = painted else { panic!("not two shapes") };
+        let [V::Shape(cube), V::Shape(limb)] = painted.items() else { panic!("not two shapes") };
         assert_eq!(
             (cube.color(), cube.roughness(), cube.material()),
             (Some([1.0; 3]), Some(0.25), Some("oak"))

@@ -521,8 +521,8 @@ fn choices_see_the_frame_of_their_function() {
         ("u", None),
         ("u", None),
     ];
-    let found: Vec<(&str, Option<[f64; 3]>)> = frames.0.iter().map(|(label, at)| (&**label, *at)).collect();
-    assert_eq!(found, expected);
+    let origins: Vec<(&str, Option<[f64; 3]>)> = frames.0.iter().map(|(label, at)| (&**label, *at)).collect();
+    assert_eq!(origins, expected);
 }
 
 #[test]
