@@ -213,4 +213,6 @@ CONTRASTS = """() => {
 
 def contrasts(page):
     """List texts with too little contrast, each with its ratio."""
+    # A colour in transition is neither the old nor the new colour.
+    until(page, "document.getAnimations().length == 0")
     return page.evaluate(CONTRASTS)

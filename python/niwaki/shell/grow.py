@@ -234,7 +234,7 @@ def _write(
     selected = [(number, result[number - 1]) for number in numbers if result[number - 1].primitives]
     names = [*files.names(), *(name for number, _ in selected for name in files.names(number))]
     with shell.results.results_folder(folder, data, [*names, *images.names(result, files.style)]):
-        with clock.part("draft"):
+        with clock.part("pictures"):
             images.draft(result, folder, files.style)
         with clock.part("files"):
             files.write(best, folder)

@@ -410,4 +410,4 @@ def test_all_files_of_a_studio_lie_in_its_folder(tmp_path):
     with serving(tmp_path / "session") as served:
         assert isinstance(served, Served)
         names = {place.name for place in (tmp_path / "session").iterdir()}
-    assert names <= {"journal.jsonl", "session.json", "key", "runs", "uploads", "files"}
+    assert names <= {"journal.jsonl", "session.json", "key", "cookie", "runs", "uploads", "files"}

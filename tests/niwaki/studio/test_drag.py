@@ -58,8 +58,10 @@ def test_a_part_moves_with_the_pointer_and_its_end_is_a_result(ship):
         for step in (0.3, 0.6, 1.0):
             to = (middle + step * AIM).tolist()
             ship.ask("drag", part=part, to=to, grab=middle.tolist(), along=ALONG, phase="move")
-        header = ship.shapes[-1][0]
-        assert {shape.role for shape, _ in ship.shapes} == {"moving"}
+        # Runs of the models of the first screen may still arrive.
+        moving = [shape for shape, _ in ship.shapes if shape.role not in ("ghost", "prior", "glimpse")]
+        header = moving[-1]
+        assert {shape.role for shape in moving} == {"moving"}
         left = np.linalg.norm((np.array(header.held) - middle - AIM)[[0, 2]])
         assert (left <= 0.01 * 20) == (header.note == "")
         outcome = ship.ask("drag", part=part, to=to, grab=middle.tolist(), along=ALONG, phase="end")

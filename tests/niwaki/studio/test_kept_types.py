@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 from pathlib import Path
 from typing import Any
@@ -117,15 +118,19 @@ def test_an_argument_keeps_the_type_of_its_parameter(result, tmp_path):
         "plain": False,
         "whole": True,
     }
-    session = Session(tmp_path, [])
-    session.models = [listed]
-    session.step("model", {"model": question.model})
-    setting.set_values(session, Window(), m.Set(arguments={"width": 5, "depth": 5, "count": 4.0, "other": 7}))
-    kept = session.document.arguments
-    assert [(name, type(value)) for name, value in kept.items()] == [
+
+    async def kept() -> dict[str, Any]:
+        session = Session(tmp_path, [])
+        session.models = [listed]
+        session.step("model", {"model": question.model})
+        values = {"width": 5, "depth": 5, "count": 4.0, "other": 7}
+        setting.set_values(session, Window(), m.Set(arguments=values))
+        await session.end()
+        return session.document.arguments
+
+    assert [(name, type(value)) for name, value in asyncio.run(kept()).items()] == [
         ("width", float),
         ("depth", float),
         ("count", int),
         ("other", int),
     ]
-    session.journal.close()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import time
+import urllib.request
 from pathlib import Path
 
 import pytest
@@ -51,6 +52,25 @@ def test_kill_in_a_search_loses_nothing_that_was_shown(tmp_path):
         script.ask("set", settings={"count": 1, "seed": 2, "effort": 0.25})
         script.ask("run")
         assert not script.view["interrupted"]
+
+
+def test_a_page_that_is_open_finds_the_studio_again(tmp_path):
+    def answer(served):
+        _, name, value = (tmp_path / "cookie").read_text().split()
+        request = urllib.request.Request(f"{served.url}/", headers={"Cookie": f"{name}={value}"})
+        with urllib.request.urlopen(request, timeout=30) as reply:
+            return reply.status, served.url, name, value
+
+    with serving(tmp_path) as served:
+        before = answer(served)
+        served.kill()
+    assert before[0] == 200 and (os.name != "posix" or (tmp_path / "cookie").stat().st_mode & 0o077 == 0)
+    with serving(tmp_path) as served:
+        assert answer(served) == before
+    # A file that is damaged is as good as none.
+    (tmp_path / "cookie").write_text("80 niwaki_80_x short")
+    with serving(tmp_path) as served:
+        assert answer(served)[3] != before[3]
 
 
 def test_a_killed_worker_gives_a_message_and_a_fresh_process(tmp_path):

@@ -51,6 +51,13 @@ def test_the_cookie_opens_the_page_and_its_name_is_this_studios_own(served, cook
     assert ask(served, Cookie=f"niwaki_{served.port}_00000000={value}")[0] == 403
 
 
+def test_a_used_link_leads_only_a_known_browser_to_the_page(served, cookie):
+    status, headers, _ = ask(served, path="/open?token=used", Cookie=cookie)
+    assert (status, headers["location"]) == (303, "/") and "set-cookie" not in headers
+    assert ask(served, path="/open?token=used", Cookie=f"{cookie}x")[0] == 403
+    assert ask(served, path="/open?token=used")[0] == 403
+
+
 def test_the_token_serves_once_and_another_one_is_printed(served, cookie):
     assert ask(served, path=f"/open?token={served.token}")[0] == 403
     fresh = served.next_token()

@@ -90,3 +90,13 @@ def test_a_run_of_a_model_is_the_same_each_time_and_a_model_without_one_has_no_s
     assert prior.run(reference, (8.0,)).scene.size[1] == pytest.approx(8.0)
     assert prior.run(find("gmm"), ()) is None
     assert fitting.sizes(None, None, None) == m.Sizes()
+
+
+def test_a_model_with_a_host_function_is_not_run_before_someone_asks(tmp_path: Path) -> None:
+    place = tmp_path / "slow.py"
+    place.write_text(
+        "from niwaki import box, emit, host, model, uniform\n\n\n@host\ndef size(x):\n    raise SystemExit\n\n\n"
+        "@model\ndef slow():\n    emit(box((0, 0, 0), (1, size(uniform(0, 1)), 1)))\n"
+    )
+    models.named[place.resolve()] = str(place)
+    assert prior.run(models.reference(str(place)), ()) is None

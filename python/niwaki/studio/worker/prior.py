@@ -25,7 +25,10 @@ KEPT = 16
 
 
 def run(model: ModelReference, arguments: Sequence[Any]) -> Sample | None:
-    """Return a run of middle size among a few; None if no run has a shape, or the model lacks an argument."""
+    """Return a run of middle size among a few.
+
+    None if no run has a shape, if the model lacks an argument, or if it calls host functions.
+    """
     key = id(model), repr(arguments)
     if key not in _runs:
         if len(_runs) >= KEPT:
@@ -39,6 +42,9 @@ def _middle(model: ModelReference, arguments: Sequence[Any]) -> Sample | None:
     samples: list[Sample] = []
     start = time.perf_counter()
     try:
+        if "(host " in model.model.core().text:
+            # A host function may take long, and nobody has asked for a run yet.
+            return None
         search = Search(model.model, tuple(arguments), method=Forward(), seed=0)
         for seed in range(TRIES):
             sample = replace(search, seed=seed).run().best

@@ -404,9 +404,9 @@ export class Stage {
     return { source, move: [round(middle.x), round(box.max.y + 0.3 * side), round(middle.z)], scale: [side, side, side] };
   }
 
-  /** The lowest height of the contents. */
+  /** The lowest height of the target; of the contents without a target. */
   bottom(): number {
-    const box = this.home();
+    const box = this.ghostBox.isEmpty() ? this.bounds() : this.ghostBox;
     return box.isEmpty() ? 0 : Math.floor(box.min.y * 100) / 100;
   }
 
