@@ -1,11 +1,8 @@
 """Other optimisers on the same problem, with their defaults. Each asks `problem.evaluate` until all is spent.
 
-random    uniform draws
-cma       CMA-ES with integer variables, restarted with larger populations (cma)
-cma01     CMA-ES on the unit cube, rounded
-tpe       Optuna's tree-structured Parzen estimator, defined by run
-ngopt     Nevergrad's meta-optimiser
-ga        pymoo's genetic algorithm of mixed variables, populations of 30
+`random` draws uniformly. `cma` is CMA-ES with integer variables, restarted with larger populations; `cma01` works on
+the unit cube and rounds. `tpe` is Optuna's tree-structured Parzen estimator, defined by run. `ngopt` is Nevergrad's
+meta-optimiser. `ga` is pymoo's genetic algorithm of mixed variables with populations of 30.
 """
 
 from __future__ import annotations
