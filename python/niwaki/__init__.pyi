@@ -1,6 +1,7 @@
 from . import batches as batches
 from . import draw as draw
 from . import errors as errors
+from . import fitting as fitting
 from . import gallery as gallery
 from . import guides as guides
 from . import methods as methods
@@ -14,6 +15,10 @@ from .errors import InputError as InputError
 from .errors import ModelError as ModelError
 from .errors import ModelFault as ModelFault
 from .errors import NiwakiError as NiwakiError
+from .fitting import Failure as Failure
+from .fitting import FitLoop as FitLoop
+from .fitting import Parameter as Parameter
+from .fitting import number as number
 from .guides import train_guide as train_guide
 from .lang.marks import host as host
 from .lang.models import Model as Model
