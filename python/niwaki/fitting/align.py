@@ -1,7 +1,7 @@
 """Place, turn and size of a generator's mesh as further parameters, for targets in other units, axes or places.
 
-The mesh is put into the middle of the target, with the target's longest side, whichever of its axes is up. From there it
-moves, turns about the vertical and changes its size within the ranges below.
+The mesh is put into the middle of the target, with the target's longest side, whichever of its axes is up. From there
+it moves, turns about the vertical and changes its size within the ranges below.
 """
 
 from __future__ import annotations
@@ -27,9 +27,7 @@ PARAMETERS: dict[str, Any] = {
 }
 
 
-def aligned(
-    vertices: NDArray[np.float64], target: Target, values: Mapping[str, Any]
-) -> NDArray[np.float64]:
+def aligned(vertices: NDArray[np.float64], target: Target, values: Mapping[str, Any]) -> NDArray[np.float64]:
     """Return the vertices of a mesh, placed beside a target by the values of `PARAMETERS`."""
     if not len(vertices):
         return vertices

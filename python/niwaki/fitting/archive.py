@@ -1,8 +1,8 @@
 """The archive of a fit: every evaluation with its outcome and its mesh. In a folder it is cache, checkpoint and table.
 
 The file is only appended to, record by record (`niwaki.batches.segments`): a head in JSON, then bytes. What a killed
-process left incomplete is skipped when it is read, and evaluated again. The first record has the settings that decide the
-outcomes; another search is refused.
+process left incomplete is skipped when it is read, and evaluated again. The first record has the settings that decide
+the outcomes; another search is refused.
 """
 
 from __future__ import annotations
@@ -138,7 +138,10 @@ class Archive:
         body = b""
         if isinstance(entry.outcome, Outcome):
             features = np.ascontiguousarray(entry.outcome.features, "<f4").tobytes()
-            head["outcome"] = asdict(entry.outcome) | {"features": len(features), "cells": len(entry.outcome.cells)}
+            head["outcome"] = asdict(entry.outcome) | {
+                "features": len(features),
+                "cells": len(entry.outcome.cells),
+            }
             body = features + entry.outcome.cells
         self._append(head, body + entry.mesh)
 

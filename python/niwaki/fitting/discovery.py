@@ -1,8 +1,8 @@
 """The parameters of a function that is defined by run, and when they are used, from a few runs at random.
 
-A parameter that some runs lack depends on the nearest switch or choice before it whose values tell these runs from the
-others, or on a whole number with a border between them. Where nothing tells them apart, it counts as always used, and the
-function ignores its value in some runs.
+A parameter that some runs lack depends on the nearest switch or choice before it whose values tell these runs from
+the others, or on a whole number with a border between them. Where nothing tells them apart, it counts as always used,
+and the function ignores its value in some runs.
 """
 
 from __future__ import annotations
@@ -62,7 +62,9 @@ def space_of(name: str, traces: Sequence[Sequence[Drawn]]) -> Space:
         )
     parameters: dict[str, Any] = {}
     for parameter, drawn in firsts.items():
-        parameters[parameter] = Parameter(_range(drawn), _condition(parameter, runs, list(parameters), firsts))
+        parameters[parameter] = Parameter(
+            _range(drawn), _condition(parameter, runs, list(parameters), firsts)
+        )
     return Space(parameters)
 
 

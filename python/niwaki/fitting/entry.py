@@ -3,8 +3,9 @@
     found = nw.fit(bracket, nw.match_volume("bracket.stl"), evaluations=300, folder="bracket")
     found.best.parameters
 
-The loop asks for points in batches, has them evaluated by worker processes, and tells the outcomes in the order of asking:
-the number of workers changes no result. The archive has every evaluation, so the same call goes on where it stopped.
+The loop asks for points in batches, has them evaluated by worker processes, and tells the outcomes in the order of
+asking: the number of workers changes no result. The archive has every evaluation, so the same call goes on where it
+stopped.
 """
 
 from __future__ import annotations
@@ -19,7 +20,6 @@ from typing import Any
 
 import numpy as np
 
-from niwaki import _engine
 from niwaki.batches.pools import cores
 from niwaki.draw.scene import Scene
 from niwaki.errors import InputError
@@ -31,9 +31,10 @@ from niwaki.fitting.archive import Archive, Entry, Repeat, opened, packed, store
 from niwaki.fitting.generators.functions import Loaded
 from niwaki.fitting.generators.generator import Generator, number_of, value_of
 from niwaki.fitting.generators.loading import generator_of
-from niwaki.fitting.goals import Goal, Outcome, scene_of
+from niwaki.fitting.goals import Goal, Outcome
 from niwaki.fitting.loop import Failure, FitLoop, Point
 from niwaki.fitting.pool import Caller, Here, Limit, Reply, Workers
+from niwaki.fitting.result import FitResult, scene_of_arrays
 from niwaki.fitting.space import Parameter, Space
 from niwaki.search.checks import fresh
 from niwaki.search.data import Writer, text_hash
@@ -81,51 +82,7 @@ class FitProgress:
     seconds_left: float | None
 
 
-@dataclass(frozen=True)
-class FitRun:
-    """A fit with all of its evaluations.
-
-    Attributes
-    ----------
-    generator : Generator
-    loop : FitLoop
-        The search; `loop.points` and `loop.outcomes` are its points and what came of them.
-    entries : list of Entry
-        The evaluations in order, with their meshes.
-    target : Target or None
-        The target of an aligned search.
-    interrupted : bool
-        Whether Ctrl-C ended it.
-    seconds : float
-        Wall time of this call.
-    spread : float or None
-        The largest difference between the log scores of two calls of one point; 0 for equal bits; None if no point was
-        called twice.
-    """
-
-    generator: Generator
-    loop: FitLoop
-    entries: list[Entry]
-    target: Target | None
-    interrupted: bool
-    seconds: float
-    spread: float | None
-
-    def scene(self, number: int) -> Scene:
-        """Return the scene of an evaluation; the empty scene for a failure."""
-        return _scene(*self.entries[number].arrays)
-
-    def parameters(self, number: int) -> dict[str, Any]:
-        """Return the values of the parameters that an evaluation used, by name."""
-        entry, space = self.entries[number], self.loop.space
-        names = [row.name for row in entry.drawn] or list(entry.numbers)
-        numbers = {row.name: row.number for row in entry.drawn} | entry.numbers
-        names += [name for name in entry.numbers if name.startswith("align.") and name not in names]
-        known = set(space.names)
-        return {name: value_of(space, name, numbers[name]) if name in known else numbers[name] for name in names}
-
-
-def fit_run(
+def fit(
     model: Any,
     goal: Any,
     evaluations: int = 300,
@@ -137,8 +94,68 @@ def fit_run(
     limit: float = 60.0,
     align: bool = False,
     progress: Callable[[FitProgress], None] | None = None,
-) -> FitRun:
-    """Search the parameters of a model; see `niwaki.fit`."""
+) -> FitResult:
+    """Search the parameters of a model that somebody else wrote.
+
+    The search learns from all of the mesh, not from its score alone. An evaluation that fails is a point without a
+    mesh; the table has its text.
+
+    Parameters
+    ----------
+    model
+        A function that returns a mesh (ranges in its signature, or draws while it runs), an OpenSCAD file or
+        `nw.scad(...)`, or `nw.command(...)`.
+    goal
+        A score such as `match_volume(target)`, numbers such as `number("volume", 3.0, tolerance=0.1)`, a product of
+        these; or a mesh to fill.
+    evaluations
+        The number of evaluations in all, with those that the folder has already.
+    seconds
+        Wall time after which no further evaluations begin.
+    workers
+        Worker processes, each of which loads the model once; the result does not depend on their number. Default: one
+        for each processor.
+    folder
+        A folder for all evaluations. The same call goes on where an earlier call stopped or was killed.
+    seed
+        The seed of the search. Default: that of the folder, or a new one.
+    limit
+        Seconds that a call may take until ten are known. Then ten times their median, and at least a tenth of `limit`.
+    align
+        Whether to search the place, the turn and the size of the mesh, too, for a target in other units, axes or
+        places.
+    progress
+        A function that is called with `FitProgress` after each batch.
+
+    Returns
+    -------
+    FitResult
+        All evaluations; `best`, `table()`. Ctrl-C keeps what there is.
+
+    Raises
+    ------
+    InputError
+        `no-ranges`: there is nothing to search; `all-failed`: the first 20 evaluations failed; `other-fit`: the folder
+        has another search; `fit-worker-ended`: a worker process cannot load the model.
+    FileError
+        `folder-in-use`: another process searches in the folder.
+
+    Warns
+    -----
+    SearchWarning
+        Meshes are open, inverted or flat; the model is not deterministic, or must run in this process; the target has
+        another size or is far away.
+
+    Examples
+    --------
+    >>> import niwaki as nw
+    >>> def block(width=nw.Uniform(1, 4), height=nw.Uniform(1, 4)):
+    ...     return nw.box((0, height / 2, 0), (width, height, 2))
+    >>> target = nw.Target(*[getattr(block(3, 2), name)() for name in ("vertices", "faces")])
+    >>> found = nw.fit(block, nw.match_volume(target, voxel=0.25), evaluations=20, seed=1)
+    >>> sorted(found.best.parameters), len(found)
+    (['height', 'width'], 20)
+    """
     if worker.ACTIVE:
         raise Loaded("fit-worker-ended", reason="`fit` was called in a worker process")
     generator, wish = generator_of(model), goal_of(goal)
@@ -163,15 +180,14 @@ def fit_run(
         with opened(place, about) as archive:
             search = _Search(generator, wish, start, archive, caller, bounds, target if align else None)
             search.run(evaluations, budget, progress)
-            search.warn(place)
-            return FitRun(
+            search.warn()
+            return FitResult(
                 generator,
                 search.loop,
                 [archive.entries[number] for number in range(search.loop.told)],
-                target if align else None,
-                search.interrupted,
-                time.monotonic() - begun,
-                search.spread,
+                interrupted=search.interrupted,
+                seconds=time.monotonic() - begun,
+                spread=search.spread,
             )
     finally:
         caller.close()
@@ -183,7 +199,9 @@ def goal_of(goal: Any) -> Goal:
         return Goal.of(match_volume(goal))
     if isinstance(goal, Goal | Score):
         return Goal.of(goal)
-    raise bad("goal", goal, "a score such as `match_volume(target)`, a product of scores, or a mesh file", "a score")
+    raise bad(
+        "goal", goal, "a score such as `match_volume(target)`, a product of scores, or a mesh file", "a score"
+    )
 
 
 def _seed(seed: int | None, folder: Path | None) -> int:
@@ -202,8 +220,8 @@ def _caller(generator: Generator, workers: int | None, limit: Limit) -> Caller:
     if recipe is not None:
         return Workers(recipe, number, limit)
     warn(
-        f"{generator.reason}, so it runs in this process: a call that hangs waits for ever, a crash ends the program, and "
-        "one call runs at a time. Define the function at the top of a file to have it run in worker processes",
+        f"{generator.reason}, so it runs in this process: a call that hangs waits for ever, a crash ends the program, "
+        "and one call runs at a time. Define the function at the top of a file to have it run in worker processes",
         SearchWarning,
     )
     return Here(generator, limit)
@@ -245,20 +263,21 @@ class _Search:
             raise _all_failed(self.generator.name, len(failed), failed[0].failed)
         return discovery.space_of(self.generator.name, [trace for trace in traces if trace])
 
-    def run(
-        self, evaluations: int, budget: float, progress: Callable[[FitProgress], None] | None
-    ) -> None:
+    def run(self, evaluations: int, budget: float, progress: Callable[[FitProgress], None] | None) -> None:
         """Evaluate points until all evaluations, or the seconds, are spent, or Ctrl-C."""
         started = time.monotonic()
         stored = len(self.archive.entries)
         try:
             while self.loop.told < evaluations and time.monotonic() - started < budget:
                 points = self.loop.ask(min(BATCH, evaluations - self.loop.told))
+                if not points:
+                    # All points of the space are known.
+                    break
                 self._evaluate(points)
                 self._repeat([point.number for point in points if point.number % REPEATED == REPEATED - 1])
                 if progress is not None and self.loop.told > stored:
                     progress(self._progress(evaluations, started, stored))
-            if self.loop.told and isinstance(self.loop.outcomes[self.loop.best.number], Outcome):
+            if len(self.loop.answers):
                 self._repeat([self.loop.best.number])
         except KeyboardInterrupt:
             if not self.loop.told:
@@ -269,7 +288,8 @@ class _Search:
         """Have points evaluated, and tell what came of them."""
         space = self.loop.space
         numbers = [
-            {name: number_of(space, name, value) for name, value in point.parameters.items()} for point in points
+            {name: number_of(space, name, value) for name, value in point.parameters.items()}
+            for point in points
         ]
         missing = []
         for place, point in enumerate(points):
@@ -310,7 +330,7 @@ class _Search:
     def _measured(self, vertices: Any, faces: Any) -> Outcome | Failure:
         """Score a mesh; a mesh that the engine refuses is a failure."""
         try:
-            return self.goal.measure(_scene(vertices, faces))
+            return self.goal.measure(scene_of_arrays(vertices, faces))
         except (ValueError, InputError) as error:
             return Failure(f"its mesh cannot be scored: {str(error).splitlines()[0]}")
 
@@ -352,9 +372,11 @@ class _Search:
         done, each = self.loop.told, (time.monotonic() - started) / max(self.loop.told - stored, 1)
         failed = done - len(scores)
         left = each * (evaluations - done)
-        return FitProgress(done, evaluations, failed, max(scores, default=-math.inf), self.limit.median or 0.0, left)
+        return FitProgress(
+            done, evaluations, failed, max(scores, default=-math.inf), self.limit.median or 0.0, left
+        )
 
-    def warn(self, folder: Path | None) -> None:
+    def warn(self) -> None:
         """Warn about meshes with defects, a function that is not deterministic, and a target of another size."""
         entries = [self.archive.entries[number] for number in range(self.loop.told)]
         meshes = [entry for entry in entries if isinstance(entry.outcome, Outcome)]
@@ -364,33 +386,31 @@ class _Search:
             share = f"{len(repeats)} of {len(self.archive.repeats)}"
             texts.append(
                 f"`{self.generator.name}` is not deterministic: {share} points gave another mesh when they were called "
-                f"again, and their log scores differ by up to {self.spread:.3g} nats. Give its random numbers a fixed seed"
+                f"again, and their log scores differ by up to {self.spread:.3g} nats. Give its random numbers a seed"
             )
         target = self.goal.score.target
         if target is not None and meshes and self.target is None:
             best = self.archive.entries[self.loop.best.number]
             if best.mesh:
-                scene = _scene(*best.arrays)
+                scene = scene_of_arrays(*best.arrays)
                 texts += [size_warning(target, scene), _far(target, scene)] if len(scene) else []
         if self.loop.told and not self.goal.has_features:
             texts.append(
-                f"the goal has nothing but its score to learn from ({', '.join(self.goal.without)}): the search needs many "
-                "more evaluations than with a volume, an image or numbers"
+                f"the goal has nothing but its score to learn from ({', '.join(self.goal.without)}): the search needs "
+                "many more evaluations than with a volume, an image or numbers"
             )
         for text in filter(None, texts):
             warn(text, SearchWarning)
 
 
 def _defects(meshes: Sequence[Entry]) -> str:
-    counts = {
-        name: sum(name in entry.defects for entry in meshes) for name in ("open", "inverted", "flat")
-    }
+    counts = {name: sum(name in entry.defects for entry in meshes) for name in ("open", "inverted", "flat")}
     shares = [f"{100 * number / len(meshes):.0f} % are {name}" for name, number in counts.items() if number]
     if not shares:
         return ""
     return (
-        f"of {len(meshes)} meshes {', '.join(shares)}. They are scored all the same: what an outside reaches through a gap "
-        "is not filled, and a flat mesh fills nothing"
+        f"of {len(meshes)} meshes {', '.join(shares)}. They are scored all the same: what the outside reaches through "
+        "a gap is not filled, and a flat mesh fills nothing"
     )
 
 
@@ -403,16 +423,9 @@ def _far(target: Target, scene: Scene) -> str:
     if away <= float(target.size.max()):
         return ""
     return (
-        f"the best mesh is {away:.3g} from the target, which is {float(target.size.max()):.3g} long: move one of them, or "
-        "search with `align=True`"
+        f"the best mesh is {away:.3g} from the target, which is {float(target.size.max()):.3g} long: move one of them, "
+        "or search with `align=True`"
     )
-
-
-def _scene(vertices: Any, faces: Any) -> Scene:
-    if not len(faces):
-        return Scene([])
-    points, corners = np.array(vertices, dtype=np.float64), np.array(faces, dtype=np.int64)
-    return scene_of(_engine.shape("mesh", points, corners))
 
 
 def _own(numbers: Mapping[str, float]) -> dict[str, float]:

@@ -37,8 +37,8 @@ TOLERANCE, ANGLE = 1 / 500, 0.3
 FLAT = 1e-6
 
 EXPECTED = (
-    "a mesh: an object with `vertices` and `faces`, with `to_mesh` or with `tessellate`, a pair of arrays, the bytes or the "
-    "path of a mesh file, or a list of these"
+    "a mesh: an object with `vertices` and `faces`, with `to_mesh` or with `tessellate`, a pair of arrays, the bytes "
+    "or the path of a mesh file, or a list of these"
 )
 
 
@@ -70,8 +70,8 @@ def joined(meshes: Sequence[Arrays]) -> Arrays:
 def defects(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> list[str]:
     """Return what is wrong with a mesh that is scored all the same: "open", "inverted", "flat".
 
-    Edges of a closed mesh lie between two triangles that run along them in opposite directions. Corners at the same place
-    count as one, because files of some formats repeat them.
+    Edges of a closed mesh lie between two triangles that run along them in opposite directions. Corners at the same
+    place count as one, because files of some formats repeat them.
     """
     if not len(faces):
         return []
@@ -185,7 +185,13 @@ def _file(place: Path) -> Arrays:
 def _bytes(data: bytes) -> Arrays:
     start = data[:512].lstrip()
     suffix = (
-        ".glb" if data[:4] == b"glTF" else ".ply" if start[:3] == b"ply" else ".gltf" if start[:1] == b"{" else ".stl"
+        ".glb"
+        if data[:4] == b"glTF"
+        else ".ply"
+        if start[:3] == b"ply"
+        else ".gltf"
+        if start[:1] == b"{"
+        else ".stl"
     )
     return _arrays(*reading.parsed(data, suffix))
 

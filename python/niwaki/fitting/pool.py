@@ -1,7 +1,7 @@
 """Calls of a generator in worker processes, each of which has loaded it once; or in this process.
 
-A worker that dies or takes too long is replaced. A point that ends its worker is tried once more; a point that takes too
-long is not. Loading the generator does not count as a part of a call.
+A worker that dies or takes too long is replaced. A point that ends its worker is tried once more; a point that takes
+too long is not. Loading the generator does not count as a part of a call.
 """
 
 from __future__ import annotations
@@ -215,7 +215,8 @@ class Workers:
                 worker.ready, self._deaths = True, 0
             elif task is not None:
                 worker.task, worker.deadline = None, float("inf")
-                reply = Reply.of_answer(*message, time.monotonic() - worker.started)
+                head, body = message
+                reply = Reply.of_answer(head, body, time.monotonic() - worker.started)
                 self._limit.note(reply)
                 yield task, reply
                 left -= 1

@@ -1,7 +1,7 @@
 """A worker process: it loads one generator, and calls it point by point.
 
-Requests come over the standard input, one line of JSON each; answers go to what was the standard output: a line of JSON,
-then the bytes of the mesh. What the generator prints goes to the standard error. Nothing is unpickled.
+Requests come over the standard input, one line of JSON each; answers go to what was the standard output: a line of
+JSON, then the bytes of the mesh. What the generator prints goes to the standard error. Nothing is unpickled.
 """
 
 from __future__ import annotations
@@ -114,5 +114,3 @@ def read_answer(answers: IO[bytes]) -> tuple[dict[str, Any], bytes] | None:
     head = json.loads(line)
     body = answers.read(head["bytes"])
     return (head, body) if len(body) == head["bytes"] else None
-
-

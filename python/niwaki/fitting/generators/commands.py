@@ -38,8 +38,8 @@ def command(words: Sequence[str], **parameters: Any) -> CommandGenerator:
     Parameters
     ----------
     words
-        The program and its arguments. `{w}` stands for the value of the parameter `w`, and `{out}` for a new file's path
-        without a suffix; one word has it, with the suffix of the file: `"{out}.stl"`.
+        The program and its arguments. `{w}` stands for the value of the parameter `w`, and `{out}` for a new file's
+        path without a suffix; one word has it, with the suffix of the file: `"{out}.stl"`.
     parameters
         The range of each parameter: `w=nw.Uniform(20, 80)`.
 
@@ -54,18 +54,28 @@ def command(words: Sequence[str], **parameters: Any) -> CommandGenerator:
 class CommandGenerator(Generator):
     """A program that writes a mesh file: see `command`."""
 
-    def __init__(self, words: Sequence[str], parameters: Mapping[str, Any], space: Space | None = None) -> None:
+    def __init__(
+        self, words: Sequence[str], parameters: Mapping[str, Any], space: Space | None = None
+    ) -> None:
         if isinstance(words, str) or not words or not all(isinstance(word, str) for word in words):
-            raise _bad("the words are not a list of texts", 'write `nw.command(["tool", "--w", "{w}", "-o", "{out}.stl"])`')
+            raise _bad(
+                "the words are not a list of texts",
+                'write `nw.command(["tool", "--w", "{w}", "-o", "{out}.stl"])`',
+            )
         self.words = [str(word) for word in words]
         names = {name for word in self.words for name in NAME.findall(word)}
         if OUT not in names:
-            raise _bad("no word has `{out}`, the file that the program writes", 'add such a word: "{out}.stl"')
+            raise _bad(
+                "no word has `{out}`, the file that the program writes", 'add such a word: "{out}.stl"'
+            )
         self.suffix = self._suffix()
         if unknown := sorted(names - set(parameters) - {OUT}):
             raise _bad(f"`{{{unknown[0]}}}` has no range", f"give it one: `{unknown[0]}=nw.Uniform(20, 80)`")
         if unused := sorted(set(parameters) - names):
-            raise _bad(f"no word has the parameter `{unused[0]}`", f"add a word with `{{{unused[0]}}}`, or leave it out")
+            raise _bad(
+                f"no word has the parameter `{unused[0]}`",
+                f"add a word with `{{{unused[0]}}}`, or leave it out",
+            )
         self.program = shutil.which(self.words[0]) or ""
         if not self.program:
             raise _bad(f"there is no program `{self.words[0]}`", "install it, or write its whole path")
@@ -77,7 +87,9 @@ class CommandGenerator(Generator):
             if match := re.search(r"\{out\}(\.\w+)", word):
                 if match[1].lower() in reading.FORMATS:
                     return match[1]
-                raise _bad(f"{match[1]} files are not read", f"let it write one of {', '.join(reading.FORMATS)}")
+                raise _bad(
+                    f"{match[1]} files are not read", f"let it write one of {', '.join(reading.FORMATS)}"
+                )
         raise _bad("`{out}` has no suffix, which tells the format", 'write `"{out}.stl"`')
 
     def call(self, numbers: Numbers) -> Called:
@@ -87,13 +99,21 @@ class CommandGenerator(Generator):
             texts = {name: text_of(value) for name, value in self.values(numbers).items()} | {OUT: out}
             words = [NAME.sub(lambda match: texts.get(match[1], match[0]), word) for word in self.words]
             done = subprocess.run(
-                [self.program, *words[1:]], stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace"
+                [self.program, *words[1:]],
+                stdin=subprocess.DEVNULL,
+                capture_output=True,
+                text=True,
+                errors="replace",
             )
             if done.returncode:
-                raise RuntimeError(f"{self.name} ended with code {done.returncode}: {_end(done.stderr or done.stdout)}")
+                raise RuntimeError(
+                    f"{self.name} ended with code {done.returncode}: {_end(done.stderr or done.stdout)}"
+                )
             place = Path(out + self.suffix)
             if not place.is_file():
-                raise RuntimeError(f"{self.name} wrote no file {OUT}{self.suffix}: {_end(done.stderr or done.stdout)}")
+                raise RuntimeError(
+                    f"{self.name} wrote no file {OUT}{self.suffix}: {_end(done.stderr or done.stdout)}"
+                )
             return Called(place.read_bytes() and read(place))
 
     def identity(self) -> dict[str, str]:
@@ -103,7 +123,11 @@ class CommandGenerator(Generator):
         # A script is a word of the command, too.
         files = [Path(word) for word in self.words[1:] if Path(word).is_file()]
         hashes = [hashlib.sha256(place.read_bytes()).hexdigest() for place in files]
-        return {"the command": " ".join(self.words), "the program": digest, "the command's files": " ".join(hashes)}
+        return {
+            "the command": " ".join(self.words),
+            "the program": digest,
+            "the command's files": " ".join(hashes),
+        }
 
     def recipe(self) -> dict[str, Any]:
         """Return the words and the parameters."""
@@ -141,7 +165,9 @@ def space_of_levels(table: Mapping[str, Any]) -> Space:
     from niwaki.words.distributions import DiscreteUniform, Uniform
 
     kinds: dict[str, Any] = {"real": Uniform(0.0, 1.0), "whole": DiscreteUniform(0, 1)}
-    return Space({name: values if kind == "choice" else kinds[kind] for name, (values, kind) in table.items()})
+    return Space(
+        {name: values if kind == "choice" else kinds[kind] for name, (values, kind) in table.items()}
+    )
 
 
 def text_of(value: Any) -> str:

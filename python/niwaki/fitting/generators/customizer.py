@@ -2,7 +2,8 @@
 
 | line of the file | parameter |
 | --- | --- |
-| `width = 40; // [20:80]`, `width = 40; // [20:0.5:80]` | a real number, or a whole one if its ends and its step are whole |
+| `count = 4; // [1:12]` | a whole number, if ends and step are whole and there are at most 50 steps |
+| `width = 40; // [20:80]`, `width = 40; // [20:0.5:80]` | else a real number |
 | `count = 3; // [1, 2, 5]`, `kind = "a"; // [a:Round, b:Flat]` | a choice |
 | `back = true;` | a switch |
 | `wall = 2.5;` | a real number without a range: from half of it to twice it |
@@ -24,6 +25,8 @@ from niwaki.words.distributions import Bernoulli, DiscreteUniform, Uniform
 LINE = re.compile(r"^\s*(\$?\w+)\s*=\s*([^;]+?)\s*;[ \t]*(?://[ \t]*(.*?))?\s*$")
 NUMBER = re.compile(r"^[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?$")
 HIDDEN = re.compile(r"/\*\s*\[\s*hidden\s*\]\s*\*/", re.IGNORECASE)
+#: The most steps of a whole number; a slider with more is a length, an angle or the like.
+MOST_STEPS = 50
 #: The first line of code: there the Customizer stops.
 CODE = re.compile(r"^\s*(?:module|function)\b|^[^/]*\{")
 
@@ -99,7 +102,8 @@ def _listed(inside: str, value: str, is_text: bool) -> Any:
         numbers = [low, high, float(ends[1]) if len(ends) == 3 else 1.0]
         if not low < high:
             return None
-        if all(number == int(number) for number in numbers) and numbers[2] == 1.0 and "." not in value:
+        is_whole = all(number == int(number) for number in numbers) and "." not in value
+        if is_whole and numbers[2] == 1.0 and high - low <= MOST_STEPS:
             return DiscreteUniform(int(low), int(high))
         return Uniform(low, high)
     if len(parts) == 1 and len(ends) == 1:

@@ -1,8 +1,8 @@
 """Draws while a function runs: its parameters, their ranges, and which of them it uses, are what it asks for.
 
-    def bracket(d):
-        holes = d.whole("holes", 0, 4)
-        diameter = d.real("diameter", 2, 8) if holes else None
+def bracket(d):
+    holes = d.whole("holes", 0, 4)
+    diameter = d.real("diameter", 2, 8) if holes else None
 """
 
 from __future__ import annotations
@@ -68,13 +68,17 @@ class Draws:
     def real(self, name: str, low: float, high: float) -> float:
         """Draw a real number from `low` to `high`."""
         if not (isfinite(low) and isfinite(high) and low < high):
-            raise DrawError(f"the range of `{name}` is {low!r} to {high!r}: write two finite ends, the lower one first")
+            raise DrawError(
+                f"the range of `{name}` is {low!r} to {high!r}: write two finite ends, the lower one first"
+            )
         return self._draw(name, "real", float(low), float(high), ())
 
     def whole(self, name: str, low: int, high: int) -> int:
         """Draw a whole number from `low` to `high`, both included."""
         if int(low) != low or int(high) != high or low > high:
-            raise DrawError(f"the range of `{name}` is {low!r} to {high!r}: write two whole numbers, the lower one first")
+            raise DrawError(
+                f"the range of `{name}` is {low!r} to {high!r}: write two whole numbers, the lower one first"
+            )
         return int(self._draw(name, "whole", int(low), int(high), ()))
 
     def switch(self, name: str) -> bool:
@@ -90,15 +94,17 @@ class Draws:
 
     def _draw(self, name: str, kind: str, low: float, high: float, labels: tuple[str, ...]) -> float:
         if any(earlier.name == name for earlier in self.drawn):
-            raise DrawError(f"`{name}` is drawn twice in one run: give each draw a name of its own, such as `{name}2`")
+            raise DrawError(
+                f"`{name}` is drawn twice in one run: give each draw a name of its own, such as `{name}2`"
+            )
         number = self._numbers.get(name)
         if number is None:
             share = int.from_bytes(hashlib.sha256(self._salt + name.encode()).digest()[:6], "big") / 2**48
             number = low + share * (high - low) if kind == "real" else low + int(share * (high - low + 1))
         elif not low <= number <= high:
             raise DrawError(
-                f"the range of `{name}` changes from run to run, and {number:g} is outside of {low:g} to {high:g}: draw a "
-                "share between 0 and 1, and compute the value from it"
+                f"the range of `{name}` changes from run to run, and {number:g} is outside of {low:g} to {high:g}: "
+                "draw a share between 0 and 1, and compute the value from it"
             )
         self.drawn.append(Drawn(name, kind, low, high, labels, number))
         return number

@@ -146,7 +146,9 @@ def _of_file(place: Path) -> Any:
     try:
         return run_file(place)[0]
     except Loaded:
-        latest = [module for module in sys.modules.values() if getattr(module, "__file__", None) == str(place)]
+        latest = [
+            module for module in sys.modules.values() if getattr(module, "__file__", None) == str(place)
+        ]
         return latest[-1]
 
 
@@ -238,7 +240,11 @@ def usual_range(name: str, parameter: str, default: Any) -> Any:
         )
     ends = sorted((default / 2, default * 2))
     if isinstance(default, int):
-        return DiscreteUniform(-(-default // 2), 2 * default) if default > 0 else DiscreteUniform(2 * default, default // 2)
+        return (
+            DiscreteUniform(-(-default // 2), 2 * default)
+            if default > 0
+            else DiscreteUniform(2 * default, default // 2)
+        )
     return Uniform(*ends)
 
 

@@ -74,7 +74,9 @@ class Generator(ABC):
 def value_of(space: Space, name: str, number: float) -> Any:
     """Return the value of a plain number."""
     axis = space.axis(name)
-    return axis.values[int(number)] if axis.kind == "choice" else int(number) if axis.kind == "whole" else number
+    return (
+        axis.values[int(number)] if axis.kind == "choice" else int(number) if axis.kind == "whole" else number
+    )
 
 
 def number_of(space: Space, name: str, value: Any) -> float:

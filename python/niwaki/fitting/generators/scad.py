@@ -39,8 +39,8 @@ def scad(path: str | PathLike[str], **ranges: Any) -> ScadGenerator:
     path
         The file.
     ranges
-        Ranges of parameters in place of those of the Customizer: `width=nw.Uniform(20, 80)`. A parameter of the file whose
-        value is no distribution and no list keeps this value: `holes=4`.
+        Ranges of parameters in place of those of the Customizer: `width=nw.Uniform(20, 80)`. A parameter of the file
+        whose value is no distribution and no list keeps this value: `holes=4`.
 
     Raises
     ------
@@ -57,7 +57,7 @@ class ScadGenerator(Generator):
 
     def __init__(self, path: Path, ranges: Mapping[str, Any], space: Space | None = None) -> None:
         self.path, self.name = path.resolve(), path.stem
-        self.text = file_text(path, "model")
+        self.text = file_text(path, "model", ".scad")
         rows = {row.name: row for row in slots(self.text)}
         if unknown := sorted(set(ranges) - set(rows)):
             raise InputError(
@@ -96,18 +96,25 @@ class ScadGenerator(Generator):
     def _by_program(self, source: str) -> Any:
         assert self.program is not None
         # Files that it includes or imports are found beside it.
-        with tempfile.NamedTemporaryFile("w", suffix=".scad", dir=self.path.parent, prefix=".niwaki-") as file:
+        with tempfile.NamedTemporaryFile(
+            "w", suffix=".scad", dir=self.path.parent, prefix=".niwaki-"
+        ) as file:
             file.write(source)
             file.flush()
             with tempfile.TemporaryDirectory(prefix="niwaki-") as folder:
                 place = Path(folder, "mesh.stl")
                 done = subprocess.run(
-                    [self.program, "-o", str(place), file.name], stdin=subprocess.DEVNULL, capture_output=True, text=True
+                    [self.program, "-o", str(place), file.name],
+                    stdin=subprocess.DEVNULL,
+                    capture_output=True,
+                    text=True,
                 )
                 if "is empty" in done.stderr:
                     return None
                 if done.returncode or not place.is_file():
-                    raise RuntimeError(f"openscad ended with code {done.returncode}: {done.stderr[-SHOWN:].strip()}")
+                    raise RuntimeError(
+                        f"openscad ended with code {done.returncode}: {done.stderr[-SHOWN:].strip()}"
+                    )
                 return read(place)
 
     def identity(self) -> dict[str, str]:
