@@ -251,11 +251,12 @@ class FitResult(Sequence[FitSample]):
             write_rows(Path(path), rows)
         return rows
 
-    def sheet(self, samples: Sequence[FitSample] | None = None, **settings: Any) -> Image:
-        """Draw samples side by side, each with its log score; by default the best alone."""
-        shown = [self.best] if samples is None else list(samples)
-        captions = [_caption(place, sample) for place, sample in enumerate(shown, 1)]
-        sheet: Image = draw.sheet.sheet([sample.scene for sample in shown], captions, self.target, **settings)
+    def sheet(self, shown: Sequence[FitSample] | None = None, **settings: Any) -> Image:
+        """Draw evaluations side by side, each with its log score; by default ten variants."""
+        listed = self.variants() if shown is None else list(shown)
+        captions = [_caption(place, sample) for place, sample in enumerate(listed, 1)]
+        scenes = [sample.scene for sample in listed]
+        sheet: Image = draw.sheet.sheet(scenes, captions, self.target, **settings)
         return sheet
 
     def numbers(self) -> dict[str, Any]:

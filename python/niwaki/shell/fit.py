@@ -23,13 +23,16 @@ from niwaki.fitting.generators.generator import Generator
 from niwaki.fitting.generators.loading import generator_of
 from niwaki.inputs.modules import run_file
 from niwaki.lang.models import Model
-from niwaki.shell import controls, folders, pictures
+from niwaki.shell import controls, folders, pictures, settings
 from niwaki.shell.app import Json, Seed, app, counted
 from niwaki.shell.progress import duration, status_line
 from niwaki.targets import asks
 
-#: Files of the folder, beside the archive.
-FILES = ("fit.json", "table.csv", "best.glb", "best.png", "sheet.png")
+#: The options of a goal: those of scenes in space.
+OPTIONS = (
+    *("target", "voxel", "sigma", "avoid", "floor", "within"),
+    *("match_image", "match_shadow", "camera", "weight_image", "weight", "light", "receiver"),
+)
 
 ModelFile = Annotated[
     str,
@@ -38,15 +41,16 @@ ModelFile = Annotated[
 
 
 @app.command()
+@settings.with_settings
 def fit(
     model: ModelFile,
-    options: controls.Options,
+    options: Annotated[dict[str, Any], controls.flags(*OPTIONS)],
     evaluations: Annotated[
         int, typer.Option("--evaluations", metavar="N", help="Evaluations in all, with those of the folder.")
     ] = 300,
     seconds: Annotated[
         float | None,
-        typer.Option("--within-seconds", metavar="S", help="Begin no evaluation after S seconds."),
+        typer.Option("--seconds", metavar="SECONDS", help="Begin no evaluation after so many seconds."),
     ] = None,
     workers: Annotated[
         int | None,
@@ -66,7 +70,8 @@ def fit(
     seed: Seed = None,
     output: Annotated[str | None, folders.output("the model's name and -fit")] = None,
     as_json: Json = False,
-    images: pictures.Pictures = pictures.Pictures(),  # noqa: B008
+    *,
+    images: pictures.Pictures,
 ) -> None:
     """Fit the parameters of MODEL to a target. Writes fit.json, table.csv, best.glb, best.png, sheet.png.
 
@@ -74,7 +79,7 @@ def fit(
     """
     generator = found(model)
     score = goal(generator, options)
-    folder = Path(output or f"{generator.name}-fit")
+    folder = None if as_json and output is None else Path(output or f"{generator.name}-fit")
     with status_line(f"fitting {generator.name}") as show:
         result = nw.fit(
             generator,
@@ -88,14 +93,15 @@ def fit(
             align=align,
             progress=lambda now: show(told(now)),
         )
-    with held_folder(folder):
-        _write(result, folder, images)
+    if folder is not None:
+        with held_folder(folder):
+            _write(result, folder, images)
     if as_json:
         print(json.dumps(result.numbers()))
     else:
         _summary(result, folder)
     if result.interrupted:
-        print(f"stopped: the same command goes on with {folder}", file=sys.stderr)
+        print("stopped: the same command goes on from here", file=sys.stderr)
         raise typer.Exit(130)
 
 
@@ -168,7 +174,7 @@ def _write(result: nw.fitting.FitResult, folder: Path, images: pictures.Pictures
         picture.save_image(lambda: result.sheet(shown, **cells), folder / "sheet.png")
 
 
-def _summary(result: nw.fitting.FitResult, folder: Path) -> None:
+def _summary(result: nw.fitting.FitResult, folder: Path | None) -> None:
     best = result.best
     width = max(len(name) for name in best.parameters)
     for name, value in best.parameters.items():
