@@ -84,11 +84,19 @@ impl Archive {
         self.products.push(products);
     }
 
+    /// The squared distance of the features of two evaluations that gave scenes.
+    fn square_between(&self, a: usize, b: usize) -> f64 {
+        (self.square(a) + self.square(b) - 2.0 * self.product(a, b)).max(0.0)
+    }
+
     /// The archive of a search whose target was the scene of an evaluation: without it, and with features less its own.
     ///
-    /// Scores are those of features alone. The features themselves are left out, since their products are enough.
-    pub fn about(&self, target: usize) -> Archive {
-        let others: Vec<usize> = (0..self.len()).filter(|k| *k != target).collect();
+    /// Evaluations that are nearer to this target than the squared distance `least` are left out: a search that stands so
+    /// far from its target has none. Scores are those of features alone. The features themselves are left out, since their
+    /// products are enough.
+    pub fn about(&self, target: usize, least: f64) -> Archive {
+        let is_far = |k: usize| !self.is_seen(k) || self.square_between(k, target) >= least;
+        let others: Vec<usize> = (0..self.len()).filter(|k| *k != target && is_far(*k)).collect();
         let mut out = Archive { has_features: self.has_features, ..Archive::default() };
         for (place, number) in others.iter().enumerate() {
             let seen = self.is_seen(*number);

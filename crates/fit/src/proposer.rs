@@ -277,7 +277,8 @@ impl Proposer {
     }
 
     /// Points that the evaluations leave possible for the target, or for a pseudo-target: the scene of an evaluation, which
-    /// is then not learnt from. None before enough scenes are seen, and for a pseudo-target without a scene.
+    /// is then not learnt from. Neither are those that are nearer to it than the best evaluation is to the target, so that
+    /// both questions are equally hard. None before enough scenes are seen, and for a pseudo-target without a scene.
     ///
     /// * `scales`: the length scales of [`Proposer::emulator`]
     pub fn posterior(&self, scales: &Scales, pseudo: Option<usize>, settings: Posterior) -> Option<Vec<Point>> {
@@ -285,7 +286,8 @@ impl Proposer {
         let archive = match pseudo {
             None => &self.archive,
             Some(number) if number < self.archive.len() && self.archive.is_seen(number) => {
-                shifted = self.archive.about(number);
+                let least = self.best.map_or(0.0, |best| self.archive.square(best));
+                shifted = self.archive.about(number, least);
                 &shifted
             }
             Some(_) => return None,

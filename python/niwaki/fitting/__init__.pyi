@@ -1,3 +1,7 @@
+from .answers import Answer as Answer
+from .answers import Answers as Answers
+from .answers import Effect as Effect
+from .answers import Interval as Interval
 from .goals import Goal as Goal
 from .goals import Outcome as Outcome
 from .goals import number as number

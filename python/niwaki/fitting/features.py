@@ -1,7 +1,7 @@
 """What a scene gets wrong, as a vector: the differences between a scene and its target that an emulator can learn.
 
-A score is one number of a scene. The differences are hundreds: cells of the target's grid summed in blocks, in slices and
-in silhouettes; pixels in blocks; lengths outside of a box; numbers in units of their tolerance. A scene that matches has
+A score is one number of a scene. The differences are hundreds: cells of the target's grid summed in blocks, slices and
+silhouettes; pixels in blocks; lengths outside of a box; numbers in units of their tolerance. A scene that matches has
 differences of zero.
 
 Each kind of sketch has its differences in the same unit, nats: the square of their length is twice the score that the
@@ -47,15 +47,37 @@ def differences(score: Score) -> tuple[list[Differences], list[str]]:
     for call in score.asks:
         view = next(views) if call.function in VIEWED else None
         make = MAKERS.get(call.function)
-        if make is None:
-            without.append(call.function)
-        else:
+        if make is not None:
             found.append(make(call, view))
+            continue
+        without.append(call.function)
+        if _engine.SKETCHES[call.function] is None:
+            found.append(ScoreDifference(call))
     return found, without
+
+
+class ScoreDifference:
+    """The one difference of a sketch that has no others: how far its similarity is from 1, in standard deviations."""
+
+    def __init__(self, call: SketchCall, _: View | None = None) -> None:
+        self.spec, self.sigma = call.spec, float(call.arguments["sigma"])
+
+    def __call__(self, shapes: Sequence[_engine.Shape], scene: Scene) -> NDArray[np.float64]:
+        """Return the difference."""
+        sketch = _engine.Sketch([self.spec])
+        for part in scene.parts:
+            sketch.add(list(part.shapes))
+        similarity = sketch.similarity()
+        if similarity is None:
+            raise AssertionError(sketch.measures())
+        return np.array([(1.0 - similarity) / self.sigma])
 
 
 class VolumeDifferences:
     """The cells of a scene less those of its target, in blocks, slices and silhouettes, and the sides of its box."""
+
+    #: The weight of the blocks, which come first.
+    weight = BLOCK
 
     def __init__(self, call: SketchCall, _: View | None = None) -> None:
         assert call.grid is not None

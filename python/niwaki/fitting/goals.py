@@ -20,7 +20,7 @@ from niwaki import _engine
 from niwaki.draw.scene import Scene
 from niwaki.errors import InputError
 from niwaki.errors.settings import bad, real, shown
-from niwaki.fitting.features import differences, log_score
+from niwaki.fitting.features import Differences, differences, log_score
 from niwaki.targets.fit import fit
 from niwaki.targets.sketches import Score
 
@@ -124,15 +124,22 @@ class Goal:
     score : Score
         The sketches.
     numbers : tuple of Number
+        The numbers.
+    parts : list of Differences
+        The differences of the sketches that have some.
+    without : tuple of str
+        The sketches without differences, whose part of the score is predicted as one number or not at all.
     """
 
     score: Score = Score()  # noqa: RUF009
     numbers: tuple[Number, ...] = ()
+    parts: list[Differences] = field(init=False, repr=False, compare=False)
+    without: tuple[str, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         found, without = differences(self.score)
-        object.__setattr__(self, "_differences", found)
-        object.__setattr__(self, "_without", tuple(without))
+        object.__setattr__(self, "parts", found)
+        object.__setattr__(self, "without", tuple(without))
 
     def __reduce__(self) -> Any:
         return Goal, (self.score, self.numbers)
@@ -164,14 +171,15 @@ class Goal:
         return Goal(other * self.score, self.numbers) if isinstance(other, Score) else NotImplemented
 
     @property
-    def without(self) -> tuple[str, ...]:
-        """The sketches without differences: their part of the score is predicted as a number, which finds less."""
-        return self._without  # type: ignore[attr-defined,no-any-return]
-
-    @property
     def has_features(self) -> bool:
         """Whether any sketch or number has differences."""
-        return bool(self._differences) or bool(self.numbers)  # type: ignore[attr-defined]
+        return bool(self.parts) or bool(self.numbers)
+
+    @property
+    def sizes(self) -> list[int]:
+        """The number of differences of each sketch that has some."""
+        empty = Scene([])
+        return [len(part([], empty)) for part in self.parts]
 
     def measure(self, scene: Scene, numbers: Mapping[str, float] | None = None) -> Outcome:
         """Score a scene.
@@ -185,7 +193,7 @@ class Goal:
         """
         score, measures = log_score(self.score, scene) if self.score.asks else (0.0, {})
         shapes = [shape for part in scene.parts for shape in part.shapes]
-        parts = [part(shapes, scene) for part in self._differences]  # type: ignore[attr-defined]
+        parts = [part(shapes, scene) for part in self.parts]
         found: dict[str, float] = {}
         for wish in self.numbers:
             found[wish.name] = wish.of(scene, numbers or {})

@@ -16,10 +16,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from niwaki import _engine
 from niwaki.errors.settings import bad, count
+from niwaki.fitting.answers import Answer, Answers
 from niwaki.fitting.goals import Goal, Outcome, scene_of
 from niwaki.fitting.space import Space
 from niwaki.targets.sketches import Score
@@ -82,10 +81,11 @@ class FitLoop:
 
     def __init__(self, parameters: Space | Mapping[str, Any], goal: Goal | Score, seed: int = 0) -> None:
         self.space, self.goal, self.seed = Space.of(parameters), Goal.of(goal), count("seed", seed, 0)
-        self._proposer = _engine.Proposer(json.dumps(self.space.data()), self.seed)
+        self.proposer = _engine.Proposer(json.dumps(self.space.data()), self.seed)
         self.points: list[Point] = []
         self.outcomes: list[Outcome | Failure] = []
         self._early: dict[int, Outcome | Failure] = {}
+        self._answers: tuple[int, Answers] | None = None
 
     @property
     def told(self) -> int:
@@ -100,8 +100,8 @@ class FitLoop:
     def ask(self, count: int = 1) -> list[Point]:
         """Return the next points.
 
-        Fewer points come back when the next one depends on the outcome of a pending point; none at all, when nothing can
-        be proposed before that. Without pending points there is always one.
+        Fewer points come back when the next one depends on the outcome of a pending point; none at all, when nothing
+        can be proposed before that. Without pending points there is none only when all points of the space are known.
 
         Parameters
         ----------
@@ -110,7 +110,7 @@ class FitLoop:
         """
         out: list[Point] = []
         while len(out) < count:
-            proposed = self._proposer.ask()
+            proposed = self.proposer.ask()
             if proposed is None:
                 break
             row, used = tuple(proposed[0]), tuple(proposed[1])
@@ -151,16 +151,20 @@ class FitLoop:
         return outcome
 
     @property
-    def best(self) -> Point:
-        """The point with the highest score; the earlier one of two equal ones."""
-        scores = [outcome.score if isinstance(outcome, Outcome) else -np.inf for outcome in self.outcomes]
-        if not scores:
-            raise bad("best", "read", "an evaluation that is told", "the result after the first `tell`")
-        return self.points[int(np.argmax(scores))]
+    def answers(self) -> Answers:
+        """The answers of the evaluations so far."""
+        if self._answers is None or self._answers[0] != self.told:
+            self._answers = (self.told, Answers(self))
+        return self._answers[1]
+
+    @property
+    def best(self) -> Answer:
+        """The evaluation with the highest score; the earlier one of two equal ones."""
+        return self.answers.best
 
     def _push(self, outcome: Outcome | Failure) -> None:
         self.outcomes.append(outcome)
         if isinstance(outcome, Failure):
-            self._proposer.tell(float("-inf"), None)
+            self.proposer.tell(float("-inf"), None)
         else:
-            self._proposer.tell(outcome.score, outcome.features)
+            self.proposer.tell(outcome.score, outcome.features)

@@ -3,8 +3,8 @@
     {"width": nw.Uniform(20, 80), "holes": nw.DiscreteUniform(0, 6), "slot": nw.Bernoulli(),
      "finish": ["raw", "round"], "hole": Parameter(nw.Uniform(2, 8), when={"holes": range(1, 7)})}
 
-The engine sees a row of numbers in the unit cube: the probability of a real number below it, and the middle of its level
-for the others. A parameter that is not used stands at 0.5.
+The engine sees a row of numbers in the unit cube: the probability of a real number below it, and the middle of its
+level for the others. A parameter that is not used stands at 0.5.
 """
 
 from __future__ import annotations
