@@ -1,8 +1,8 @@
-"""Hidden parameters of sixteen generators, sought by optimisers of a score.
+"""Hidden parameters of sixteen generators, sought by `nw.FitLoop` and by optimisers of a score.
 
     make bench-fit                                                  # five seeds, 1,000 evaluations: many hours
     SEEDS=1 BUDGET=300 make bench-fit                               # a look
-    GENERATORS=table,gear SEARCHES=tpe,cma SEEDS=2 make bench-fit   # some
+    GENERATORS=table,gear SEARCHES=fit,cma SEEDS=2 make bench-fit   # some
 
 Each search of a problem is a line of out/fit/records.jsonl (OUT names another folder); what is there is not done
 again. The eight old generators have two targets each, the eight fresh ones have one. Leaves tables.md in the folder.
@@ -21,7 +21,7 @@ from importlib.util import find_spec
 from multiprocessing import get_context
 from typing import Any
 
-from fit import peers, table
+from fit import ours, peers, table
 from fit.problems import GENERATORS, MARKS, Problem
 from lines import Lines
 
@@ -34,7 +34,10 @@ def searched(job: Job) -> list[dict[str, Any]]:
     """Do one search; return a row for each number of evaluations at which it is judged."""
     search, generator, target, seed, budget = job
     problem = Problem(GENERATORS[generator], target, budget)
-    peers.search(problem, search, seed)
+    if search == "fit":
+        ours.search(problem, seed)
+    else:
+        peers.search(problem, search, seed)
     return [
         dict(search=search, generator=generator, target=target, seed=seed, budget=budget, evaluations=mark)
         | dict(truth=problem.truth, overhead=1000 * judged.seconds / mark)
@@ -70,7 +73,7 @@ def installed(searches: list[str], generators: list[str]) -> tuple[list[str], li
 
 
 def main() -> int:
-    searches = chosen(list(peers.PEERS), "SEARCHES")
+    searches = chosen(["fit", *peers.PEERS], "SEARCHES")
     generators = chosen(list(GENERATORS), "GENERATORS")
     searches, generators = installed(searches, generators)
     seeds, budget = int(os.environ.get("SEEDS") or 5), int(os.environ.get("BUDGET") or max(MARKS))

@@ -8,6 +8,7 @@
     fresh.py        eight further generators, written before the search that they judge
     candle.py       a file of OpenSCAD by somebody else, read by its evaluator
     problems.py     a generator, a hidden target and a score; what a search has found after 100, 300, 1,000 evaluations
+    ours.py         the search of `nw.fit`
     peers.py        cma, Optuna, Nevergrad, pymoo and a random search, with the same score and cache
     table.py        medians of what was measured
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -123,15 +124,21 @@ class Problem:
             return self._cache[key]
         if self.count >= self.budget:
             raise Spent
-        started = time.perf_counter()
-        try:
-            score = self.score(self.generator.parts(values))
-        except ValueError:
-            score = IMPOSSIBLE
-        self._inside += time.perf_counter() - started
+        with self.inside():
+            try:
+                score = self.score(self.generator.parts(values))
+            except ValueError:
+                score = IMPOSSIBLE
         self.note(score, values)
         self._cache[key] = score
         return score
+
+    @contextmanager
+    def inside(self) -> Iterator[None]:
+        """Count the time of the block as that of an evaluation."""
+        started = time.perf_counter()
+        yield
+        self._inside += time.perf_counter() - started
 
     def note(self, score: float, values: Values) -> None:
         """Count an evaluation, and keep the best."""

@@ -8,8 +8,17 @@
 | `loop` | `FitLoop`: asks for points, and takes what came of them |
 | `answers` | the answers of a search: the best, a table, variants, intervals, what moves what |
 | `effects` | a picture of what moves what |
+| `generators` | models as generators: functions, OpenSCAD files, commands |
+| `discovery` | the parameters of a function that is defined by run, and when they are used |
+| `meshes` | meshes of what a generator returns |
+| `worker`, `pool` | calls in worker processes: what a worker does, and how the parent process drives them |
+| `archive` | all evaluations, in a folder: cache, checkpoint and table |
+| `align` | place, turn and size of a mesh as further parameters |
+| `fronts` | a camera for an image that comes without one |
+| `result` | the result of `fit`: evaluations with their meshes |
+| `entry` | `fit`: asks the loop, has points evaluated, and tells what came of them |
 
-The engine's proposer (`crates/fit`) decides which point is asked next. Nothing here runs a model: who asks evaluates.
+The engine's proposer (`crates/fit`) decides which point is asked next.
 """
 
 import lazy_loader

@@ -1,4 +1,4 @@
-"""Claim: parameters and ranges are those that a signature, a Customizer or a command states, by the documented rules."""
+"""Claim: parameters and ranges are those that a signature, a Customizer or a command states, by the manual's rules."""
 
 from __future__ import annotations
 
@@ -140,6 +140,7 @@ def test_the_customizer_of_a_file_gives_ranges():
         "deep": Uniform(0.0, 50.0),
         "back": Bernoulli(0.5),
         "label": None,
+        "both": None,
     }
 
 
