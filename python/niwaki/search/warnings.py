@@ -77,6 +77,7 @@ def _gain(task: _engine.Task, best: Sample) -> str:
 
 
 def size_warning(target: Target, scene: Scene) -> str:
+    """Return a warning about a scene and a target in different units, or nothing."""
     length, goal = float(scene.size.max()), float(target.size.max())
     if goal / SIZES <= length <= goal * SIZES:
         return ""

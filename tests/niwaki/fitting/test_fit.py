@@ -1,5 +1,5 @@
-"""Claim: a fit keeps every evaluation, whatever the model does. Killed and resumed it gives the same bits, and so it does on
-any number of workers.
+"""Claim: a fit keeps every evaluation, whatever the model does. Killed and resumed it gives the same bits,
+and so it does on any number of workers.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Claim: the meshes of all libraries are read as the same vertices and faces, and what is no mesh is refused in words."""
+"""Claim: the meshes of all libraries are read as the same vertices and faces; what is no mesh is refused in words."""
 
 from __future__ import annotations
 
