@@ -29,12 +29,12 @@ def tell(problem: Problem, loop: nw.FitLoop, point: nw.fitting.Point) -> None:
     _, values = canonical(problem.parameters, values)
     with problem.inside():
         try:
-            found = loop.goal.measure(nw.fitting.goals.scene_of(merged(problem.generator.parts(values))))
+            outcome = loop.goal.measure(nw.fitting.goals.scene_of(merged(problem.generator.parts(values))))
         except ValueError as error:
-            found = nw.Failure(str(error))
-    score = found.score if isinstance(found, nw.fitting.Outcome) else IMPOSSIBLE
+            outcome = nw.Failure(str(error))
+    score = outcome.score if isinstance(outcome, nw.fitting.Outcome) else IMPOSSIBLE
     problem.note(max(score, IMPOSSIBLE), values)
-    loop.tell(point, found)
+    loop.tell(point, outcome)
 
 
 def space(problem: Problem) -> dict[str, nw.Parameter]:

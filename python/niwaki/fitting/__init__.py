@@ -8,7 +8,10 @@
 | `loop` | `FitLoop`: asks for points, and takes what came of them |
 | `answers` | the answers of a search: the best, a table, variants, intervals, what moves what |
 | `effects` | a picture of what moves what |
-| `generators` | models as generators: functions, OpenSCAD files, commands |
+| `generator`, `loading` | the interface of a model that somebody else wrote; which generator a model is |
+| `functions`, `draws` | Python functions: ranges from their signature, or draws while they run |
+| `openscad`, `customizer` | OpenSCAD files, and the parameters of their Customizer |
+| `commands` | programs that write a mesh file |
 | `discovery` | the parameters of a function that is defined by run, and when they are used |
 | `meshes` | meshes of what a generator returns |
 | `worker`, `pool` | calls in worker processes: what a worker does, and how the parent process drives them |

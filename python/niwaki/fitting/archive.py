@@ -24,7 +24,7 @@ from niwaki.batches.segments import record, records
 from niwaki.errors import InputError
 from niwaki.errors.files import sync_folder, unwritable, write_all
 from niwaki.errors.folders import held_folder
-from niwaki.fitting.generators.draws import Drawn
+from niwaki.fitting.draws import Drawn
 from niwaki.fitting.goals import Outcome
 from niwaki.fitting.loop import Failure
 from niwaki.search.checkpoint import differences
@@ -83,13 +83,13 @@ class Repeat:
         The point.
     score : float
         The log score of the second mesh; minus infinity for a failure.
-    same : bool
+    is_equal : bool
         Whether both meshes have the same bits.
     """
 
     number: int
     score: float
-    same: bool
+    is_equal: bool
 
 
 def packed(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> bytes:

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from niwaki.errors import InputError
-from niwaki.fitting.generators.draws import Drawn
+from niwaki.fitting.draws import Drawn
 from niwaki.fitting.space import Parameter, Space
 from niwaki.words.distributions import DiscreteUniform, Uniform
 

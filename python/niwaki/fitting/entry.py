@@ -28,10 +28,10 @@ from niwaki.errors.warned import warn
 from niwaki.fitting import align as aligning
 from niwaki.fitting import discovery, worker
 from niwaki.fitting.archive import Archive, Entry, Repeat, opened, packed, stored_settings
-from niwaki.fitting.generators.functions import Loaded
-from niwaki.fitting.generators.generator import Generator, number_of, value_of
-from niwaki.fitting.generators.loading import generator_of
+from niwaki.fitting.functions import Loaded
+from niwaki.fitting.generator import Generator, number_of, value_of
 from niwaki.fitting.goals import Goal, Outcome
+from niwaki.fitting.loading import generator_of
 from niwaki.fitting.loop import Failure, FitLoop, Point
 from niwaki.fitting.pool import Caller, Here, Limit, Reply, Workers
 from niwaki.fitting.result import FitResult, scene_of_arrays
@@ -51,9 +51,6 @@ ALL_FAILED = 20
 
 #: One in so many points is called twice.
 REPEATED = 50
-
-#: Log scores closer than this are equal.
-SAME = 1e-9
 
 
 @dataclass(frozen=True)
@@ -175,7 +172,7 @@ def fit(
     }
     bounds = Limit(real("limit", limit, 0))
     caller = _caller(generator, workers, bounds)
-    begun = time.monotonic()
+    start_time = time.monotonic()
     try:
         with opened(place, about) as archive:
             search = _Search(generator, wish, start, archive, caller, bounds, target if align else None)
@@ -186,7 +183,7 @@ def fit(
                 search.loop,
                 [archive.entries[number] for number in range(search.loop.told)],
                 interrupted=search.interrupted,
-                seconds=time.monotonic() - begun,
+                seconds=time.monotonic() - start_time,
                 spread=search.spread,
             )
     finally:
@@ -293,16 +290,16 @@ class _Search:
         ]
         missing = []
         for place, point in enumerate(points):
-            entry = self.archive.entries.get(point.number) or self._same(point.number, numbers[place])
+            entry = self.archive.entries.get(point.number) or self._repeated(point.number, numbers[place])
             if entry is None or entry.numbers != numbers[place]:
                 missing.append(place)
             else:
                 self._tell(point, entry)
-        for found, reply in self.caller.call([_own(numbers[place]) for place in missing]):
-            point, values = points[missing[found]], numbers[missing[found]]
+        for place, reply in self.caller.call([_without_align(numbers[place]) for place in missing]):
+            point, values = points[missing[place]], numbers[missing[place]]
             self._tell(point, self._entry(point, values, reply))
 
-    def _same(self, number: int, numbers: Mapping[str, float]) -> Entry | None:
+    def _repeated(self, number: int, numbers: Mapping[str, float]) -> Entry | None:
         """Return the evaluation of an equal point, with another number."""
         entry = self._known.get(tuple(sorted(numbers.items())))
         if entry is None:
@@ -345,7 +342,7 @@ class _Search:
         """Call points for a second time."""
         entries = [self.archive.entries[number] for number in numbers if number not in self.archive.repeats]
         entries = [entry for entry in entries if isinstance(entry.outcome, Outcome)]
-        for place, reply in self.caller.call([_own(entry.numbers) for entry in entries]):
+        for place, reply in self.caller.call([_without_align(entry.numbers) for entry in entries]):
             entry, score, is_same = entries[place], -math.inf, False
             if reply.vertices is not None and reply.faces is not None:
                 vertices = self._placed(reply.vertices, self._values(entry))
@@ -364,7 +361,7 @@ class _Search:
         for repeat in self.archive.repeats.values():
             outcome = self.archive.entries[repeat.number].outcome
             assert isinstance(outcome, Outcome)
-            pairs.append(0.0 if repeat.same else abs(outcome.score - repeat.score))
+            pairs.append(0.0 if repeat.is_equal else abs(outcome.score - repeat.score))
         return max((pair for pair in pairs if not math.isnan(pair)), default=None)
 
     def _progress(self, evaluations: int, started: float, stored: int) -> FitProgress:
@@ -381,7 +378,7 @@ class _Search:
         entries = [self.archive.entries[number] for number in range(self.loop.told)]
         meshes = [entry for entry in entries if isinstance(entry.outcome, Outcome)]
         texts = [_defects(meshes)]
-        repeats = [repeat for repeat in self.archive.repeats.values() if not repeat.same]
+        repeats = [repeat for repeat in self.archive.repeats.values() if not repeat.is_equal]
         if repeats:
             share = f"{len(repeats)} of {len(self.archive.repeats)}"
             texts.append(
@@ -428,7 +425,7 @@ def _far(target: Target, scene: Scene) -> str:
     )
 
 
-def _own(numbers: Mapping[str, float]) -> dict[str, float]:
+def _without_align(numbers: Mapping[str, float]) -> dict[str, float]:
     """Return the numbers of a generator's own parameters."""
     return {name: number for name, number in numbers.items() if name not in aligning.PARAMETERS}
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from niwaki.errors import InputError
 from niwaki.fitting.discovery import probe
-from niwaki.fitting.generators.generator import Generator
+from niwaki.fitting.generator import Generator
 from niwaki.fitting.meshes import mesh_of
 from niwaki.fitting.pool import Here, Limit, Workers
 from niwaki.targets.camera import Camera

@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from niwaki import _engine
 from niwaki.draw.assembly import Assembly
+from niwaki.fitting.commands import read
 from niwaki.targets import reading
 
 Arrays = tuple[NDArray[np.float64], NDArray[np.int64]]
@@ -86,8 +87,9 @@ def defects(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> list[str
     a, b, c = (vertices[faces[:, k]] - used.min(axis=0) for k in range(3))
     volume = float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6.0
     is_flat = abs(volume) <= FLAT * float(size.max()) ** 3
-    found = [name for name, holds in (("open", not is_closed), ("flat", is_closed and is_flat)) if holds]
-    return [*found, "inverted"] if is_closed and not is_flat and volume < 0 else found
+    if not is_closed:
+        return ["open"]
+    return ["flat"] if is_flat else ["inverted"] if volume < 0 else []
 
 
 def _meshes(value: Any, depth: int) -> list[Arrays]:
@@ -176,8 +178,6 @@ def _shapes(shapes: Sequence[_engine.Shape]) -> list[Arrays]:
 
 
 def _file(place: Path) -> Arrays:
-    from niwaki.fitting.generators.commands import read
-
     mesh = read(place)
     return joined([]) if mesh is None else _arrays(*mesh)
 

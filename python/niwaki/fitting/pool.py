@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import os
 import queue
+import signal
 import subprocess
 import sys
 import threading
@@ -23,8 +24,8 @@ from numpy.typing import NDArray
 
 from niwaki.errors import InputError
 from niwaki.errors.processes import end_group
-from niwaki.fitting.generators.draws import Drawn
-from niwaki.fitting.generators.generator import Generator, Numbers
+from niwaki.fitting.draws import Drawn
+from niwaki.fitting.generator import Generator, Numbers
 from niwaki.fitting.worker import answer, read_answer
 
 #: Calls that must be known before the limit of time follows from them; the limit in medians of their seconds.
@@ -44,7 +45,7 @@ _START = "from niwaki.fitting.worker import serve; serve()"
 
 @dataclass(frozen=True)
 class Reply:
-    """What came of a call.
+    """The outcome of a call.
 
     Attributes
     ----------
@@ -308,8 +309,6 @@ def _ended(code: int) -> str:
     """Describe the end of a process."""
     if code >= 0:
         return f"its process ended with code {code}"
-    import signal
-
     try:
         name = signal.Signals(-code).name
     except ValueError:

@@ -17,7 +17,7 @@ from niwaki import _engine, draw, targets
 from niwaki.draw.scene import Scene
 from niwaki.fitting.answers import Answer, Answers, Effect, Interval, write_rows
 from niwaki.fitting.archive import Entry
-from niwaki.fitting.generators.generator import Generator, value_of
+from niwaki.fitting.generator import Generator, value_of
 from niwaki.fitting.goals import Outcome, scene_of
 from niwaki.fitting.loop import FitLoop
 from niwaki.once import cached_property
@@ -192,7 +192,7 @@ class FitResult(Sequence[FitSample]):
 
     @property
     def answers(self) -> Answers:
-        """What the evaluations say: intervals, and what each parameter moves."""
+        """The answers of the evaluations: intervals, and what each parameter moves."""
         return self.loop.answers
 
     @property

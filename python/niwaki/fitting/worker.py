@@ -20,9 +20,9 @@ import numpy as np
 
 from niwaki.errors import NiwakiError
 from niwaki.errors.processes import end_group, lead
-from niwaki.fitting.generators.functions import FailedRun
-from niwaki.fitting.generators.generator import Generator
-from niwaki.fitting.generators.loading import generator_of_recipe
+from niwaki.fitting.functions import FailedRun
+from niwaki.fitting.generator import Generator
+from niwaki.fitting.loading import generator_of_recipe
 from niwaki.fitting.meshes import defects, mesh_of
 from niwaki.inputs.guard import reason_of
 

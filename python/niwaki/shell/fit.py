@@ -18,9 +18,9 @@ from niwaki.errors import InputError
 from niwaki.errors.files import write_whole
 from niwaki.errors.folders import held_folder
 from niwaki.fitting.fronts import front_camera
-from niwaki.fitting.generators.functions import FunctionGenerator
-from niwaki.fitting.generators.generator import Generator
-from niwaki.fitting.generators.loading import generator_of
+from niwaki.fitting.functions import FunctionGenerator
+from niwaki.fitting.generator import Generator
+from niwaki.fitting.loading import generator_of
 from niwaki.inputs.modules import run_file
 from niwaki.lang.models import Model
 from niwaki.shell import controls, folders, pictures, settings
@@ -77,7 +77,7 @@ def fit(
 
     The same command goes on where it stopped.
     """
-    generator = found(model)
+    generator = generator_named(model)
     score = goal(generator, options)
     folder = None if as_json and output is None else Path(output or f"{generator.name}-fit")
     with status_line(f"fitting {generator.name}") as show:
@@ -91,7 +91,7 @@ def fit(
             seed=seed,
             limit=limit,
             align=align,
-            progress=lambda now: show(told(now)),
+            progress=lambda now: show(progress_text(now)),
         )
     if folder is not None:
         with held_folder(folder):
@@ -105,7 +105,7 @@ def fit(
         raise typer.Exit(130)
 
 
-def found(reference: str) -> Generator:
+def generator_named(reference: str) -> Generator:
     """Return the generator of `file.py:function` or of an OpenSCAD file.
 
     Raises
@@ -149,7 +149,7 @@ def goal(generator: Generator, options: dict[str, Any]) -> nw.Score:
     return asks.score([term for term in terms if term[0] != "no_self_intersection"])
 
 
-def told(now: nw.fitting.FitProgress) -> str:
+def progress_text(now: nw.fitting.FitProgress) -> str:
     """Describe the progress of a fit."""
     best = f"{now.best:.2f}" if math.isfinite(now.best) else "-"
     failed = f", {now.failed} failed" if now.failed else ""

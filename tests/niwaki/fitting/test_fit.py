@@ -17,7 +17,7 @@ from niwaki.errors import FileError, InputError
 from niwaki.errors.folders import held_folder
 from niwaki.fitting import pool
 from niwaki.fitting.archive import NAME
-from niwaki.fitting.generators.functions import FunctionGenerator
+from niwaki.fitting.functions import FunctionGenerator
 from niwaki.fitting.meshes import mesh_of
 from niwaki.search.warnings import SearchWarning
 

@@ -10,12 +10,11 @@ import niwaki as nw
 import pytest
 from fit_hosts import block, by_run, tower
 from niwaki.errors import InputError
-from niwaki.fitting import discovery
-from niwaki.fitting.generators import customizer
-from niwaki.fitting.generators.draws import DrawError, Draws
-from niwaki.fitting.generators.functions import FunctionGenerator
-from niwaki.fitting.generators.generator import value_of
-from niwaki.fitting.generators.loading import generator_of, generator_of_recipe
+from niwaki.fitting import customizer, discovery
+from niwaki.fitting.draws import DrawError, Draws
+from niwaki.fitting.functions import FunctionGenerator
+from niwaki.fitting.generator import value_of
+from niwaki.fitting.loading import generator_of, generator_of_recipe
 from niwaki.words.distributions import Bernoulli, DiscreteUniform, Uniform
 
 
@@ -160,7 +159,7 @@ def openscad(tmp_path, monkeypatch):
     )
     program.chmod(0o755)
     monkeypatch.setenv("PATH", str(tmp_path))
-    monkeypatch.setattr("niwaki.fitting.generators.scad.find_spec", lambda name: None)
+    monkeypatch.setattr("niwaki.fitting.openscad.find_spec", lambda name: None)
     (tmp_path / "box.scad").write_text(SCAD)
     return tmp_path / "box.scad"
 

@@ -35,7 +35,7 @@ class Kernel:
 
 
 class Lower(Kernel):
-    """The same by the words of another kernel."""
+    """A shape by the words of another kernel."""
 
     bounding_box = None
 
@@ -55,7 +55,7 @@ def stl():
     return trimesh.Trimesh(VERTICES, FACES).export(file_type="stl")
 
 
-SAME = {
+MESHES = {
     "arrays": lambda: (VERTICES, FACES),
     "lists": lambda: (VERTICES.tolist(), FACES.tolist()),
     "trimesh": lambda: trimesh.Trimesh(VERTICES, FACES),
@@ -73,9 +73,9 @@ SAME = {
 }
 
 
-@pytest.mark.parametrize("name", SAME)
+@pytest.mark.parametrize("name", MESHES)
 def test_every_kind_of_mesh_has_the_same_volume(name):
-    assert volume(SAME[name]()) == pytest.approx(2.0, rel=1e-5)
+    assert volume(MESHES[name]()) == pytest.approx(2.0, rel=1e-5)
 
 
 def test_faces_of_four_corners_are_cut_in_two():
@@ -86,8 +86,8 @@ def test_faces_of_four_corners_are_cut_in_two():
 def test_a_path_is_read_and_an_empty_mesh_is_empty(tmp_path):
     (tmp_path / "box.stl").write_bytes(stl())
     assert volume(tmp_path / "box.stl") == pytest.approx(2.0, rel=1e-5)
-    for nothing in (None, [], (np.zeros((0, 3)), np.zeros((0, 3), int)), manifold3d.Manifold()):
-        assert not len(mesh_of(nothing)[1])
+    for empty in (None, [], (np.zeros((0, 3)), np.zeros((0, 3), int)), manifold3d.Manifold()):
+        assert not len(mesh_of(empty)[1])
 
 
 @pytest.mark.parametrize(

@@ -17,10 +17,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from niwaki.errors import InputError
-from niwaki.fitting.generators.generator import Called, Generator, Numbers
+from niwaki.errors import FileError, InputError
+from niwaki.fitting.generator import Called, Generator, Numbers
 from niwaki.fitting.space import Space
 from niwaki.targets import reading
+from niwaki.words.distributions import DiscreteUniform, Uniform
 
 #: A name in a word of a command.
 NAME = re.compile(r"\{(\w+)\}")
@@ -142,8 +143,6 @@ class CommandGenerator(Generator):
 
 def read(place: Path) -> Any:
     """Read a mesh file; None for one without triangles."""
-    from niwaki.errors import FileError
-
     try:
         return reading.load(place)
     except FileError as error:
@@ -162,8 +161,6 @@ def levels(space: Space) -> dict[str, Any]:
 
 def space_of_levels(table: Mapping[str, Any]) -> Space:
     """Return a space that turns plain numbers into values; its ranges mean nothing."""
-    from niwaki.words.distributions import DiscreteUniform, Uniform
-
     kinds: dict[str, Any] = {"real": Uniform(0.0, 1.0), "whole": DiscreteUniform(0, 1)}
     return Space(
         {name: values if kind == "choice" else kinds[kind] for name, (values, kind) in table.items()}

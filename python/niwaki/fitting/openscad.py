@@ -20,9 +20,9 @@ from typing import Any
 
 from niwaki.errors import InputError
 from niwaki.errors.extras import optional
-from niwaki.fitting.generators.commands import SHOWN, levels, read, space_of_levels, text_of
-from niwaki.fitting.generators.customizer import slots, written
-from niwaki.fitting.generators.generator import Called, Generator, Numbers
+from niwaki.fitting.commands import SHOWN, levels, read, space_of_levels, text_of
+from niwaki.fitting.customizer import slots, written
+from niwaki.fitting.generator import Called, Generator, Numbers
 from niwaki.fitting.space import Space
 from niwaki.inputs import text_of as file_text
 
@@ -147,11 +147,10 @@ def _literal(value: Any) -> str:
 
 def _evaluated(source: str) -> Any:
     """Evaluate a source by the library: the union of its bodies, as a manifold; None for an empty one."""
-    import manifold3d
-    from openscad_evaluator import Evaluator
-    from openscad_lalr_parser import build_scopes, getASTfromString
-
-    nodes = getASTfromString(source)
-    bodies, _ = Evaluator().evaluate(nodes, build_scopes(nodes))
+    task = "evaluating an OpenSCAD file"
+    evaluator, parser = optional(LIBRARY, task, EXTRA), optional("openscad_lalr_parser", task, EXTRA)
+    manifold3d = optional("manifold3d", task, EXTRA)
+    nodes = parser.getASTfromString(source)
+    bodies, _ = evaluator.Evaluator().evaluate(nodes, parser.build_scopes(nodes))
     solids = [body.body for body in bodies if body.body is not None]
     return manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add) if solids else None

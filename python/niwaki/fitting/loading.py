@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from niwaki.errors import InputError
-from niwaki.fitting.generators.commands import CommandGenerator
-from niwaki.fitting.generators.functions import FunctionGenerator
-from niwaki.fitting.generators.generator import Generator
-from niwaki.fitting.generators.scad import ScadGenerator, scad
+from niwaki.fitting.commands import CommandGenerator
+from niwaki.fitting.functions import FunctionGenerator
+from niwaki.fitting.generator import Generator
+from niwaki.fitting.openscad import ScadGenerator, scad
 
 
 def generator_of(model: Any) -> Generator:

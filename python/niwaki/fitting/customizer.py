@@ -18,7 +18,7 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-from niwaki.fitting.generators.functions import usual_range
+from niwaki.fitting.functions import usual_range
 from niwaki.words.distributions import Bernoulli, DiscreteUniform, Uniform
 
 #: `name = value; // comment`.

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from niwaki.fitting.generators.draws import Drawn
+from niwaki.fitting.draws import Drawn
 from niwaki.fitting.space import Space
 
 #: The point of a generator as plain numbers, by name.
