@@ -103,11 +103,14 @@ impl Archive {
             let shifted = |other: &usize| match self.is_seen(*other) {
                 false => 0.0,
                 true => {
-                    self.product(*number, *other) - self.product(*number, target) - self.product(*other, target)
+                    self.product(*number, *other)
+                        - self.product(*number, target)
+                        - self.product(*other, target)
                         + self.product(target, target)
                 }
             };
-            let products: Vec<f64> = if seen { others[..=place].iter().map(shifted).collect() } else { vec![] };
+            let products: Vec<f64> =
+                if seen { others[..=place].iter().map(shifted).collect() } else { vec![] };
             let score = products.last().map_or(f64::NEG_INFINITY, |square| -0.5 * square);
             out.points.push(self.points[*number].clone());
             out.evaluations.push(Evaluation { score, features: seen.then(Vec::new) });

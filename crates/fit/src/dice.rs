@@ -11,8 +11,6 @@ pub enum Purpose {
     Candidates = 2,
     /// Chains of a posterior.
     Chains = 3,
-    /// Changes of length scales for questions about what was evaluated.
-    Questions = 4,
 }
 
 /// A source of random numbers.
@@ -58,7 +56,11 @@ impl Dice {
     }
 
     /// A whole number from 0 with falling probability: an exponential of this mean, rounded down, and at most `most`.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative, and below most")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "not negative, and below most"
+    )]
     pub fn early(&mut self, mean: f64, most: usize) -> usize {
         ((-mean * portable::ln(self.uniform())).min(1e9) as usize).min(most)
     }

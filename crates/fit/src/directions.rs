@@ -69,7 +69,8 @@ pub fn along(archive: &Archive, rows: &[usize]) -> Matrix {
 
 /// The one direction of goals without features: the root of twice what a score lacks to a little above the best.
 fn shortfall(archive: &Archive, rows: &[usize]) -> Matrix {
-    let finite: Vec<f64> = rows.iter().map(|row| archive.score(*row)).filter(|score| score.is_finite()).collect();
+    let finite: Vec<f64> =
+        rows.iter().map(|row| archive.score(*row)).filter(|score| score.is_finite()).collect();
     let best = finite.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let worst = finite.iter().copied().fold(f64::INFINITY, f64::min);
     let mut out = Matrix::zeros(1, rows.len());

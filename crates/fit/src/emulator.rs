@@ -7,13 +7,18 @@
 //! mean(x) = m + k(x)^T K^-1 (T - m)        variance(x) = s^2 (1 - k(x)^T K^-1 k(x)),    s^2 = mean of (T - m) K^-1 (T - m)
 //! ```
 //!
-//! Length scales are changed at random, and a change is kept if the likelihood times the prior rises. By the likelihood
-//! alone, scales collapse while there are few points.
+//! Length scales climb the likelihood times their prior, by the signs of its slope (Riedmiller & Braun 1993). By the
+//! likelihood alone, scales collapse while there are few points. With `a = K^-1 (T - m)` for each direction, and the share
+//! `w` of the direction in the variance of the features,
+//!
+//! ```text
+//! log likelihood = -n/2 sum of w log s^2 - 1/2 log det K
+//! slope          = 1/2 sum over i, j of M_ij dK_ij,          M = sum of w / s^2 a a^T - K^-1
+//! ```
 
 use crate::archive::Archive;
-use crate::dice::Dice;
 use crate::directions;
-use crate::kernel::{Columns, Scales};
+use crate::kernel::{Columns, Scales, matern_fall};
 use crate::linear::{Cholesky, Matrix, dot};
 use crate::space::Space;
 use niwaki_math::portable;
@@ -57,14 +62,13 @@ impl Emulator {
     ///
     /// * `ranked`: the evaluations that may be learnt from, best first; at least two
     /// * `scales`: length scales from before
-    /// * `tries`: random changes of the length scales
+    /// * `steps`: steps of the length scales
     pub fn train(
         space: &Space,
         archive: &Archive,
         ranked: &[usize],
         scales: &Scales,
-        tries: usize,
-        dice: &mut Dice,
+        steps: usize,
     ) -> Option<Emulator> {
         let rows = select(space, archive, ranked, scales);
         let columns = Columns::of(space.len(), rows.iter().map(|row| &archive.point(*row).row[..]));
@@ -86,22 +90,16 @@ impl Emulator {
         let total: f64 = squares.iter().sum();
         let shares: Vec<f64> = squares.iter().map(|square| square / total).collect();
 
-        let mut scales = scales.clone();
-        let mut best = trial(space, &columns, &features, &shares, &scales)?;
-        for _ in 0..tries {
-            let changed = vary(space, &scales, dice);
-            if let Some(found) = trial(space, &columns, &features, &shares, &changed)
-                && found.log_posterior > best.log_posterior
-            {
-                (best, scales) = (found, changed);
-            }
-        }
+        let count = effective(&shares);
+        let learnt = Learnt { space, columns: &columns, features: &features, shares: &shares, count };
+        let (scales, best) = learnt.climb(scales, steps)?;
         let mut weights = best.half;
         for c in 0..weights.rows {
             best.factor.solve_upper(weights.row_mut(c));
         }
-        let failures: Vec<usize> =
-            (0..archive.len()).filter(|row| !archive.is_seen(*row) || archive.score(*row).is_infinite()).collect();
+        let failures: Vec<usize> = (0..archive.len())
+            .filter(|row| !archive.is_seen(*row) || archive.score(*row).is_infinite())
+            .collect();
         let failed = (!failures.is_empty())
             .then(|| Columns::of(space.len(), failures.iter().map(|row| &archive.point(*row).row[..])));
         Some(Emulator {
@@ -198,45 +196,170 @@ fn select(space: &Space, archive: &Archive, ranked: &[usize], scales: &Scales) -
     chosen
 }
 
-/// Length scales with some of them changed.
-fn vary(space: &Space, scales: &Scales, dice: &mut Dice) -> Scales {
-    let mut out = scales.clone();
-    let share = (2.0 / space.len() as f64).max(0.25);
-    let together = 0.15 * dice.normal();
-    for scale in out.along.iter_mut().chain(&mut out.apart) {
-        let alone = if dice.chance(share) { 0.35 * dice.normal() } else { 0.0 };
-        *scale *= portable::exp(alone + together);
-    }
-    out.clamp();
-    out
+/// The number of directions of equal variance that would be as uneven as these shares, which sum to 1.
+fn effective(shares: &[f64]) -> f64 {
+    1.0 / shares.iter().map(|share| share * share).sum::<f64>()
 }
 
-/// The likelihood of length scales times their prior, with what was computed for it; None if the matrix is not positive.
-fn trial(
-    space: &Space,
-    columns: &Columns,
-    features: &Matrix,
-    shares: &[f64],
-    scales: &Scales,
-) -> Option<Trial> {
-    let n = columns.count;
-    let mut matrix = Matrix::zeros(n, n);
-    let mut row = vec![0.0; space.len()];
-    for i in 0..n {
-        columns.row(i, &mut row);
-        let out = &mut matrix.row_mut(i)[..=i];
-        columns.kernel(space, scales, &row, out);
-        out[i] = 1.0 + NUGGET;
+/// Rows, and their features along the directions, less their means.
+struct Learnt<'a> {
+    space: &'a Space,
+    columns: &'a Columns,
+    features: &'a Matrix,
+    /// The share of each direction in the variance of the features.
+    shares: &'a [f64],
+    /// The number of directions that the likelihood counts for.
+    count: f64,
+}
+
+/// The first step of the logarithm of a length scale, its range, and its change when the slope keeps its sign or does not.
+const STEP: f64 = 0.15;
+const STEPS: [f64; 2] = [0.01, 0.5];
+const LONGER: f64 = 1.3;
+const SHORTER: f64 = 0.5;
+
+impl Learnt<'_> {
+    /// The best of the length scales on a climb, with what was computed for them.
+    fn climb(&self, scales: &Scales, steps: usize) -> Option<(Scales, Trial)> {
+        let mut now = scales.clone();
+        let mut trial = self.trial(&now)?;
+        let mut best = None;
+        let count = 2 * self.space.len();
+        let (mut sizes, mut before) = (vec![STEP; count], vec![0.0; count]);
+        for _ in 0..steps {
+            let slope = self.slope(&now, &trial);
+            let mut next = now.clone();
+            for (k, scale) in next.along.iter_mut().chain(&mut next.apart).enumerate() {
+                let turn = slope[k] * before[k];
+                if turn > 0.0 {
+                    sizes[k] = (sizes[k] * LONGER).min(STEPS[1]);
+                } else if turn < 0.0 {
+                    sizes[k] = (sizes[k] * SHORTER).max(STEPS[0]);
+                }
+                if slope[k] != 0.0 {
+                    *scale *= portable::exp(sizes[k] * slope[k].signum());
+                }
+            }
+            next.clamp();
+            before = slope;
+            let Some(found) = self.trial(&next) else { break };
+            let last = (std::mem::replace(&mut now, next), std::mem::replace(&mut trial, found));
+            let is_best =
+                best.as_ref().is_none_or(|(_, t): &(Scales, Trial)| last.1.log_posterior > t.log_posterior);
+            if is_best {
+                best = Some(last);
+            }
+        }
+        match best {
+            Some((scales, found)) if found.log_posterior >= trial.log_posterior => Some((scales, found)),
+            _ => Some((now, trial)),
+        }
     }
-    let factor = Cholesky::of(matrix)?;
-    let mut half = features.clone();
-    let mut variances = vec![];
-    for c in 0..half.rows {
-        factor.solve_lower(half.row_mut(c));
-        variances.push((dot(half.row(c), half.row(c)) / n as f64).max(1e-12));
+
+    /// The slope of the log posterior by the logarithm of each length scale: those along ranges, then those between levels.
+    fn slope(&self, scales: &Scales, trial: &Trial) -> Vec<f64> {
+        let (n, axes) = (self.columns.count, self.space.len());
+        let mut weights = trial.half.clone();
+        for c in 0..weights.rows {
+            trial.factor.solve_upper(weights.row_mut(c));
+            let factor = (self.shares[c] / trial.variances[c]).sqrt();
+            weights.row_mut(c).iter_mut().for_each(|x| *x *= factor);
+        }
+        let across = weights.transposed();
+        let inverse = trial.factor.inverse();
+        let mut slope = vec![0.0; 2 * axes];
+        let (mut row, mut fall) = (vec![0.0; axes], vec![0.0; n]);
+        for i in 1..n {
+            self.columns.row(i, &mut row);
+            let fall = &mut fall[..i];
+            self.columns.distances(self.space, scales, &row, fall);
+            for (j, value) in fall.iter_mut().enumerate() {
+                *value = matern_fall(*value) * (dot(across.row(i), across.row(j)) - inverse.row(i)[j]);
+            }
+            self.columns.add_slopes(self.space, scales, &row, fall, &mut slope);
+        }
+        let prior = scales.log_prior_slope(self.space);
+        slope.iter().zip(prior).map(|(likelihood, prior)| self.count * likelihood + prior).collect()
     }
-    let fit: f64 = shares.iter().zip(&variances).map(|(share, v)| share * portable::ln(*v)).sum();
-    let volume: f64 = factor.diagonal().map(portable::ln).sum();
-    let log_posterior = -0.5 * n as f64 * fit - volume + scales.log_prior(space);
-    Some(Trial { log_posterior, factor, half, variances })
+
+    /// The likelihood of length scales times their prior, with what was computed for it; None if the matrix is not
+    /// positive.
+    fn trial(&self, scales: &Scales) -> Option<Trial> {
+        let (n, columns) = (self.columns.count, self.columns);
+        let mut matrix = Matrix::zeros(n, n);
+        let mut row = vec![0.0; self.space.len()];
+        for i in 0..n {
+            columns.row(i, &mut row);
+            let out = &mut matrix.row_mut(i)[..=i];
+            columns.kernel(self.space, scales, &row, out);
+            out[i] = 1.0 + NUGGET;
+        }
+        let factor = Cholesky::of(matrix)?;
+        let mut half = self.features.clone();
+        let mut variances = vec![];
+        for c in 0..half.rows {
+            factor.solve_lower(half.row_mut(c));
+            variances.push((dot(half.row(c), half.row(c)) / n as f64).max(1e-12));
+        }
+        let fit: f64 = self.shares.iter().zip(&variances).map(|(share, v)| share * portable::ln(*v)).sum();
+        let volume: f64 = factor.diagonal().map(portable::ln).sum();
+        let log_likelihood = self.count * (-0.5 * n as f64 * fit - volume);
+        let log_posterior = log_likelihood + scales.log_prior(self.space);
+        Some(Trial { log_posterior, factor, half, variances })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! The slope of the likelihood agrees with differences; a climb never ends lower than it began.
+    use super::*;
+    use crate::archive::Evaluation;
+    use crate::dice::{Dice, Purpose};
+    use crate::space::tests::example;
+
+    fn archive(space: &Space, count: usize) -> Archive {
+        let mut dice = Dice::new(5, Purpose::Design, 0);
+        let mut out = Archive::default();
+        for _ in 0..count {
+            let point = space.draw_point(&mut dice);
+            let [a, b, c] = [point.row[0], point.row[3], point.row[5]];
+            let features =
+                (0..12).map(|k| (a * f64::from(k)).sin() + b * c * f64::from(k % 3) - 0.2).collect();
+            out.push(point, Evaluation { score: 0.0, features: Some(features) });
+        }
+        out
+    }
+
+    #[test]
+    fn the_slope_of_the_likelihood_agrees_with_differences() {
+        let space = example();
+        let archive = archive(&space, 25);
+        let columns = Columns::of(space.len(), (0..25).map(|k| &archive.point(k).row[..]));
+        let mut features = directions::along(&archive, &(0..25).collect::<Vec<_>>());
+        for c in 0..features.rows {
+            let mean = features.row(c).iter().sum::<f64>() / 25.0;
+            features.row_mut(c).iter_mut().for_each(|x| *x -= mean);
+        }
+        let shares = vec![1.0 / features.rows as f64; features.rows];
+        let learnt =
+            Learnt { space: &space, columns: &columns, features: &features, shares: &shares, count: 3.0 };
+        let mut scales = Scales::start(&space);
+        scales.along.iter_mut().enumerate().for_each(|(k, l)| *l *= 0.7 + 0.1 * k as f64);
+        let slope = learnt.slope(&scales, &learnt.trial(&scales).unwrap());
+        for k in 0..2 * space.len() {
+            let at = |step: f64| {
+                let mut moved = scales.clone();
+                *moved.along.iter_mut().chain(&mut moved.apart).nth(k).unwrap() *= step.exp();
+                learnt.trial(&moved).unwrap().log_posterior
+            };
+            let difference = (at(1e-5) - at(-1e-5)) / 2e-5;
+            assert!(
+                (difference - slope[k]).abs() < 1e-4 * (1.0 + difference.abs()),
+                "{k} {difference} {}",
+                slope[k]
+            );
+        }
+        let (_, climbed) = learnt.climb(&scales, 15).unwrap();
+        assert!(climbed.log_posterior > learnt.trial(&scales).unwrap().log_posterior + 1.0);
+    }
 }

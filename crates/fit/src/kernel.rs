@@ -3,6 +3,7 @@
 //! `distance^2 = sum (du / l)^2` over real and whole numbers, plus `1 / l'^2` for each whole number, switch and choice
 //! that differs.
 
+use crate::linear::dot;
 use crate::space::{Kind, Space};
 use niwaki_math::portable;
 
@@ -33,20 +34,31 @@ impl Scales {
         Scales { along: vec![ALONG; space.len()], apart: apart.collect() }
     }
 
-    /// Log prior density, up to a constant.
-    pub fn log_prior(&self, space: &Space) -> f64 {
+    /// How many standard deviations the logarithm of each scale is off, in the order of the fields; 0 for unused ones.
+    fn deviations(&self, space: &Space) -> Vec<f64> {
         let start = Scales::start(space);
-        let mut sum = 0.0;
+        let z = |(l, l0): (&f64, f64)| portable::ln(l / l0) / SPREAD;
+        let mut out: Vec<f64> =
+            self.along.iter().zip(start.along).chain(self.apart.iter().zip(start.apart)).map(z).collect();
         for (axis, about) in space.axes().iter().enumerate() {
-            let z = |l: f64, l0: f64| portable::ln(l / l0) / SPREAD;
-            if about.kind != Kind::Choice {
-                sum += z(self.along[axis], start.along[axis]) * z(self.along[axis], start.along[axis]);
+            if about.kind == Kind::Choice {
+                out[axis] = 0.0;
             }
-            if about.kind != Kind::Real {
-                sum += z(self.apart[axis], start.apart[axis]) * z(self.apart[axis], start.apart[axis]);
+            if about.kind == Kind::Real {
+                out[space.len() + axis] = 0.0;
             }
         }
-        -0.5 * sum
+        out
+    }
+
+    /// Log prior density, up to a constant.
+    pub fn log_prior(&self, space: &Space) -> f64 {
+        -0.5 * self.deviations(space).iter().map(|z| z * z).sum::<f64>()
+    }
+
+    /// The slope of the log prior density by the logarithm of each scale, in the order of the fields.
+    pub fn log_prior_slope(&self, space: &Space) -> Vec<f64> {
+        self.deviations(space).iter().map(|z| -z / SPREAD).collect()
     }
 
     /// Keeps every scale within its range.
@@ -102,6 +114,24 @@ impl Columns {
         }
     }
 
+    /// Adds to the slope by the logarithm of each scale, `along` then `apart`, what the distances of a row from the first points
+    /// contribute: a distance falls by twice its part when the scale grows, and the kernel rises by `fall` for each of that.
+    pub fn add_slopes(&self, space: &Space, scales: &Scales, row: &[f64], fall: &[f64], slope: &mut [f64]) {
+        let mut parts = vec![0.0; fall.len()];
+        for (axis, about) in space.axes().iter().enumerate() {
+            let (x, column) = (row[axis], &self.columns[axis][..fall.len()]);
+            if about.kind != Kind::Choice {
+                parts.iter_mut().zip(column).for_each(|(part, y)| *part = (x - y) * (x - y));
+                slope[axis] += 2.0 * dot(fall, &parts) / (scales.along[axis] * scales.along[axis]);
+            }
+            if about.kind != Kind::Real {
+                parts.iter_mut().zip(column).for_each(|(part, y)| *part = if x == *y { 0.0 } else { 1.0 });
+                let apart = scales.apart[axis];
+                slope[space.len() + axis] += 2.0 * dot(fall, &parts) / (apart * apart);
+            }
+        }
+    }
+
     /// The kernel of a row with the first points, as many as `out` has.
     pub fn kernel(&self, space: &Space, scales: &Scales, row: &[f64], out: &mut [f64]) {
         self.distances(space, scales, row, out);
@@ -116,6 +146,13 @@ impl Columns {
 pub fn matern(square: f64) -> f64 {
     let root = (5.0 * square).sqrt();
     (1.0 + root + 5.0 / 3.0 * square) * portable::exp_falling(-root)
+}
+
+/// How fast Matern 5/2 falls with the squared distance.
+#[inline(always)]
+pub fn matern_fall(square: f64) -> f64 {
+    let root = (5.0 * square).sqrt();
+    5.0 / 6.0 * (1.0 + root) * portable::exp_falling(-root)
 }
 
 /// The squared distance of two rows.

@@ -120,6 +120,28 @@ impl Cholesky {
         }
     }
 
+    /// The inverse of the matrix; only its lower triangle is computed.
+    pub fn inverse(&self) -> Matrix {
+        let n = self.0.rows;
+        // Rows of the inverse of `L^T`: row `i` solves `L x = unit i`, which is 0 before `i`.
+        let mut half = Matrix::zeros(n, n);
+        for i in 0..n {
+            let x = half.row_mut(i);
+            x[i] = 1.0 / self.0.row(i)[i];
+            for k in i + 1..n {
+                let row = self.0.row(k);
+                x[k] = -dot(&row[i..k], &x[i..k]) / row[k];
+            }
+        }
+        let mut out = Matrix::zeros(n, n);
+        for i in 0..n {
+            for j in 0..=i {
+                out.row_mut(i)[j] = dot(&half.row(i)[i..], &half.row(j)[i..]);
+            }
+        }
+        out
+    }
+
     /// The diagonal of `L`.
     pub fn diagonal(&self) -> impl Iterator<Item = f64> + '_ {
         (0..self.0.rows).map(|i| self.0.row(i)[i])
@@ -377,6 +399,15 @@ mod tests {
             factor.solve_upper(&mut b);
             let off = b.iter().zip(want.values()).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
             assert!(off < 1e-7, "{n}: {off}");
+            let inverse = factor.inverse();
+            for i in 0..n {
+                let mut unit: Vec<f64> = (0..n).map(|j| f64::from(u8::from(i == j))).collect();
+                factor.solve_lower(&mut unit);
+                factor.solve_upper(&mut unit);
+                for j in 0..=i {
+                    assert!((unit[j] - inverse.row(i)[j]).abs() < 1e-9 * inverse.row(i)[i].max(1.0), "{n}");
+                }
+            }
         }
         let mut bad = Matrix::zeros(2, 2);
         bad.row_mut(0).copy_from_slice(&[1.0, 2.0]);

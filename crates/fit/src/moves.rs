@@ -5,8 +5,8 @@
 
 use crate::archive::Archive;
 use crate::dice::Dice;
-use crate::kernel::distance;
 use crate::kernel::Scales;
+use crate::kernel::distance;
 use crate::space::{Kind, Point, Space};
 
 /// The best points that are parents, and that lend values of parameters that become used.

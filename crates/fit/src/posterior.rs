@@ -53,8 +53,9 @@ pub fn sample(space: &Space, emulator: &Emulator, starts: &[Point], settings: Po
         }
         sum * settings.power
     };
-    let mut states: Vec<Point> =
-        (0..settings.chains).map(|k| starts[if k == 0 { 0 } else { dice.below(starts.len()) }].clone()).collect();
+    let mut states: Vec<Point> = (0..settings.chains)
+        .map(|k| starts[if k == 0 { 0 } else { dice.below(starts.len()) }].clone())
+        .collect();
     let mut logs: Vec<f64> = states.iter().map(log_likelihood).collect();
     let mut kept = vec![];
     for step in 0..settings.steps {
@@ -79,7 +80,7 @@ fn change(space: &Space, point: &Point, a: &Point, b: &Point, dice: &mut Dice) -
     let levelled: Vec<usize> = (0..space.len()).filter(|k| point.used[*k] && space.has_levels(*k)).collect();
     let mut row = point.row.clone();
     let kind = dice.uniform();
-    if !levelled.is_empty() && (kind < 0.25 || reals.is_empty()) {
+    if !levelled.is_empty() && (kind < 0.2 || reals.is_empty()) {
         let axis = levelled[dice.below(levelled.len())];
         row[axis] = space.draw(axis, dice);
         for dependent in space.dependents(axis) {
@@ -87,7 +88,11 @@ fn change(space: &Space, point: &Point, a: &Point, b: &Point, dice: &mut Dice) -
                 row[*dependent] = space.draw(*dependent, dice);
             }
         }
-    } else if kind < 0.65 {
+    } else if kind < 0.4 {
+        // Any value: what the target does not tell must not stay where the search happened to look.
+        let axis = reals[dice.below(reals.len())];
+        row[axis] = space.draw(axis, dice);
+    } else if kind < 0.7 {
         let axis = reals[dice.below(reals.len())];
         let size = portable::exp(std::f64::consts::LN_10 * dice.between(-2.5, -0.3));
         row[axis] = fold(row[axis] + size * dice.normal());

@@ -29,9 +29,9 @@ const KEPT: usize = 15;
 const GENERATIONS: [f64; 2] = [0.5, 0.25];
 /// How much of what is unknown an optimist hopes for, standard deviations.
 const HOPE: f64 = 0.5;
-/// Random changes of the length scales: at the first batch, and at each [`EVERY`]-th.
-const TRIES: [usize; 2] = [12, 4];
-const EVERY: u64 = 4;
+/// Steps of the length scales for a batch: at the first, and later; and before questions.
+const STEPS: [usize; 2] = [12, 3];
+const CAREFUL: usize = 40;
 /// Evaluations without a gain after which the search starts afresh, and the least gain, nats.
 const PATIENCE: usize = 50;
 const GAIN: f64 = 0.05;
@@ -222,7 +222,8 @@ impl Proposer {
 
     /// Whether the best score of the epoch has not risen for long; stores when it rises.
     fn is_stuck(&mut self) -> bool {
-        let best = (self.epoch..self.archive.len()).map(|k| self.archive.score(k)).fold(f64::NEG_INFINITY, f64::max);
+        let best =
+            (self.epoch..self.archive.len()).map(|k| self.archive.score(k)).fold(f64::NEG_INFINITY, f64::max);
         if best > self.rise.1 + GAIN || (self.rise.1.is_infinite() && best.is_finite()) {
             self.rise = (self.archive.len(), best);
         }
@@ -236,12 +237,8 @@ impl Proposer {
             // No scene yet.
             return (0..count).map(|_| plain(self.space.draw_point(dice))).collect();
         }
-        let tries = match self.batches {
-            1 => TRIES[0],
-            n if n % EVERY == 0 => TRIES[1],
-            _ => 0,
-        };
-        let emulator = Emulator::train(&self.space, &self.archive, ranked, &self.scales, tries, dice);
+        let steps = STEPS[usize::from(self.batches > 1)];
+        let emulator = Emulator::train(&self.space, &self.archive, ranked, &self.scales, steps);
         let moves = Moves::new(&self.space, &self.archive, &self.habits, ranked);
         let mut out: Vec<Asked> = vec![];
         let mut taken = self.keys.clone();
@@ -271,9 +268,8 @@ impl Proposer {
     /// The emulator of everything that was told, for questions about it; None before two scenes are seen.
     pub fn emulator(&self) -> Option<Emulator> {
         let ranked = self.archive.ranked(0);
-        let mut dice = Dice::new(self.seed, Purpose::Questions, 0);
         (ranked.len() >= 2)
-            .then(|| Emulator::train(&self.space, &self.archive, &ranked, &self.scales, 2 * TRIES[0], &mut dice))?
+            .then(|| Emulator::train(&self.space, &self.archive, &ranked, &self.scales, CAREFUL))?
     }
 
     /// Points that the evaluations leave possible for the target, or for a pseudo-target: the scene of an evaluation, which
@@ -281,7 +277,12 @@ impl Proposer {
     /// both questions are equally hard. None before enough scenes are seen, and for a pseudo-target without a scene.
     ///
     /// * `scales`: the length scales of [`Proposer::emulator`]
-    pub fn posterior(&self, scales: &Scales, pseudo: Option<usize>, settings: Posterior) -> Option<Vec<Point>> {
+    pub fn posterior(
+        &self,
+        scales: &Scales,
+        pseudo: Option<usize>,
+        settings: Posterior,
+    ) -> Option<Vec<Point>> {
         let shifted;
         let archive = match pseudo {
             None => &self.archive,
@@ -296,8 +297,7 @@ impl Proposer {
         if ranked.len() < 2 {
             return None;
         }
-        let mut dice = Dice::new(settings.seed, Purpose::Questions, 1);
-        let emulator = Emulator::train(&self.space, archive, &ranked, scales, 0, &mut dice)?;
+        let emulator = Emulator::train(&self.space, archive, &ranked, scales, 0)?;
         let starts: Vec<Point> =
             ranked.iter().take(settings.chains).map(|number| archive.point(*number).clone()).collect();
         Some(sample(&self.space, &emulator, &starts, settings))

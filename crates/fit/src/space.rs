@@ -91,7 +91,10 @@ impl Space {
                 return Err(format!("parameter {number} has {} levels", axis.levels));
             }
             if axis.weights.as_ref().is_some_and(|weights| weights.len() != axis.levels) {
-                return Err(format!("parameter {number} needs a weight for each of its {} levels", axis.levels));
+                return Err(format!(
+                    "parameter {number} needs a weight for each of its {} levels",
+                    axis.levels
+                ));
             }
             for (other, levels) in axis.when.iter().flatten() {
                 let fits = *other < number && levels.iter().all(|level| *level < axes[*other].levels);
@@ -278,7 +281,8 @@ pub(crate) mod tests {
     #[test]
     fn one_of_several_conditions_is_enough() {
         let either = vec![vec![(0, vec![1])], vec![(1, vec![1, 2])]];
-        let axes = vec![axis(Kind::Whole, 2, vec![]), axis(Kind::Whole, 3, vec![]), axis(Kind::Real, 0, either)];
+        let axes =
+            vec![axis(Kind::Whole, 2, vec![]), axis(Kind::Whole, 3, vec![]), axis(Kind::Real, 0, either)];
         let space = Space::new(axes).unwrap();
         let used = |a, b| space.snap(&[space.place(0, a), space.place(1, b), 0.7]).used[2];
         assert!(!used(0, 0) && used(1, 0) && used(0, 1) && used(1, 2));
@@ -286,7 +290,8 @@ pub(crate) mod tests {
 
     #[test]
     fn unknown_conditions_are_learnt_from_what_was_used() {
-        let axes = vec![axis(Kind::Choice, 2, vec![]), axis(Kind::Whole, 4, vec![]), axis(Kind::Real, 0, vec![])];
+        let axes =
+            vec![axis(Kind::Choice, 2, vec![]), axis(Kind::Whole, 4, vec![]), axis(Kind::Real, 0, vec![])];
         let mut space = Space::new(axes).unwrap();
         let point = |space: &Space, a, b| space.snap(&[space.place(0, a), space.place(1, b), 0.7]);
         space.learn(&point(&space, 0, 2), &[true, true, false]);

@@ -74,6 +74,17 @@ impl PyProposer {
         Ok(asked(self.proposer.space().snap(&row)))
     }
 
+    /// Length scales of each parameter: along its range, and between different levels.
+    fn scales(&mut self) -> PyResult<(Vec<f64>, Vec<f64>)> {
+        let scales = self.emulator()?.scales();
+        Ok((scales.along.clone(), scales.apart.clone()))
+    }
+
+    /// The variance of features along each direction, far from all evaluations.
+    fn variances(&mut self) -> PyResult<Vec<f64>> {
+        Ok(self.emulator()?.variances().to_vec())
+    }
+
     /// Predicted features of rows (n, parameters) along the directions, (n, directions), and the share of the variance that is
     /// left, (n,).
     #[expect(clippy::type_complexity, reason = "two arrays")]

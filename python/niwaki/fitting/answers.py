@@ -37,8 +37,11 @@ FALLBACK = 0.3
 #: posterior are one of the truth.
 POWERS = {1.0: 0.7, 0.6: 0.875, 0.3: 1.065, 0.15: 1.25}
 
+#: Chains and their steps.
+LONG = (40, 600)
+
 #: Evaluations that serve as pseudo-targets, the fewest that calibrate, and the chains and steps for each.
-PSEUDO, FEWEST, SHORT = 16, 8, (16, 120)
+PSEUDO, FEWEST, SHORT = 16, 8, (16, 160)
 
 #: Known parameters that the knowledge beforehand counts for, and that each parameter counts for, however many
 #: pseudo-targets have it: these lie together.
@@ -278,7 +281,7 @@ class Answers(Sequence[Answer]):
                 axis.value(high),
                 None,
                 probability,
-                high - low < VAGUE * share,
+                high - low < VAGUE * share and self._tells(number),
                 power,
                 covered,
             )
@@ -286,7 +289,21 @@ class Answers(Sequence[Answer]):
         for place in places:
             shares[axis.value(float(place))] += 1.0 / len(places)
         told = max(shares.values(), default=0.0) > 1.0 / max(len(shares), 1) + 0.1
+        told = told and self._tells(number)
         return Interval(name, share, None, None, shares, probability, told, power, covered)
+
+    def _tells(self, number: int) -> bool:
+        """Whether some value of a parameter makes the best evaluation worse by more than the emulator doubts."""
+        best = list(self._loop.points[self.best.number].row)
+        levels = len(self.space.axes[number].values) or 9
+        places = (np.arange(levels) + 0.5) / levels
+        rows = np.array(
+            [self._loop.proposer.snap([*best[:number], place, *best[number + 1 :]])[0] for place in places]
+        )
+        means, left = self._loop.proposer.predict(rows)
+        lengths = np.sqrt((means**2).sum(1))
+        doubts = np.sqrt(left * sum(self._loop.proposer.variances()))
+        return bool((lengths - lengths.min() > doubts).any())
 
     def sensitivity(self) -> list[Effect]:
         """Return what each parameter of the best evaluation moves, by the emulator, the strongest first.
@@ -344,7 +361,7 @@ class Answers(Sequence[Answer]):
     def _posterior(self, power: float) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         self._check()
         if power not in self._posteriors:
-            self._posteriors[power] = self._loop.proposer.posterior(power, self._loop.seed)
+            self._posteriors[power] = self._loop.proposer.posterior(power, self._loop.seed, *LONG)
         return self._posteriors[power]
 
     @cached_property

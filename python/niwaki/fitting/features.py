@@ -31,6 +31,10 @@ BLOCK, SLICE, SHADOW = 0.7, 0.15, 0.35
 FORBIDDEN = 10.0
 
 
+#: Lengths further outside of a box than this many deviations are all as wrong.
+FARTHEST = 200.0
+
+
 class Differences(Protocol):
     """What a scene gets wrong about one sketch."""
 
@@ -67,9 +71,8 @@ class ScoreDifference:
         sketch = _engine.Sketch([self.spec])
         for part in scene.parts:
             sketch.add(list(part.shapes))
-        similarity = sketch.similarity()
-        if similarity is None:
-            raise AssertionError(sketch.measures())
+        measures = sketch.measures()
+        similarity = measures.get("similarity", measures.get("score", 0.0))
         return np.array([(1.0 - similarity) / self.sigma])
 
 
@@ -206,7 +209,8 @@ class BoxDifferences:
         low, high = scene.bounds
         out = np.concatenate([(self.low - low) * self.unit, (high - self.high) * self.unit])
         # The engine scores the sum of the six lengths; far outside, more is not more wrong.
-        return np.clip(out, 0.0, 200.0)
+        clipped: NDArray[np.float64] = np.clip(out, 0.0, FARTHEST)
+        return clipped
 
 
 def _cuts(count: int, step: float) -> NDArray[np.int64]:

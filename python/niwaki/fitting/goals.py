@@ -83,10 +83,10 @@ def number(
     """
     real("value", value)
     real("tolerance", tolerance, 0)
-    if callable(measure):
-        called = name or getattr(measure, "__name__", "number")
-        return Goal(numbers=(Number(called, float(value), float(tolerance), measure),))
-    return Goal(numbers=(Number(name or measure, float(value), float(tolerance)),))
+    if isinstance(measure, str):
+        return Goal(numbers=(Number(name or measure, float(value), float(tolerance)),))
+    called = name or str(getattr(measure, "__name__", "number"))
+    return Goal(numbers=(Number(called, float(value), float(tolerance), measure),))
 
 
 @dataclass(frozen=True)
