@@ -18,7 +18,10 @@ from .errors import NiwakiError as NiwakiError
 from .fitting import Failure as Failure
 from .fitting import FitLoop as FitLoop
 from .fitting import Parameter as Parameter
+from .fitting import command as command
+from .fitting import fit as fit
 from .fitting import number as number
+from .fitting import scad as scad
 from .guides import train_guide as train_guide
 from .lang.marks import host as host
 from .lang.models import Model as Model
@@ -63,6 +66,9 @@ from .targets.sketches import no_self_intersection as no_self_intersection
 from .targets.sketches import overshoot as overshoot
 from .targets.target import Receiver as Receiver
 from .targets.target import Target as Target
+from .words import Bernoulli as Bernoulli
+from .words import DiscreteUniform as DiscreteUniform
+from .words import Uniform as Uniform
 from .words import arch as arch
 from .words import beta as beta
 from .words import binomial as binomial

@@ -83,7 +83,7 @@ def test_import_loads_nothing_that_is_not_always_needed():
 def test_locks_pin_every_requirement_with_a_hash():
     locks = sorted((ROOT / "requirements").glob("*.txt"))
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
-    unlocked = {"arviz", "color", "notebook", "parquet", "print", "stacks"}
+    unlocked = {"arviz", "color", "notebook", "parquet", "print", "scad", "stacks"}
     assert {lock.stem for lock in locks} == set(extras) - unlocked | {"core"}
     for lock in locks:
         entries = re.split(r"\n(?=\S)", lock.read_text().strip())
@@ -126,10 +126,11 @@ def test_every_python_file_opens_with_what_it_is_for():
 #: Imports inside functions: `resource` is not on every system.
 OPTIONAL = {("errors/memory.py", "resource")}
 #: Who imports modules by a name of their own: a look at parts that may be broken, extras, the gallery's folder, the
-#: shell's commands, the host functions of a search that was read.
+#: shell's commands, the host functions of a search that was read, a generator in a worker process.
 BY_NAME = {
     "checkup/inspection.py",
     "errors/extras.py",
+    "fitting/functions.py",
     "gallery/__init__.py",
     "inputs/child.py",
     "search/data.py",

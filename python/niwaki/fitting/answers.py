@@ -220,7 +220,7 @@ class Answers(Sequence[Answer]):
             row["failure"] = None if isinstance(outcome, Outcome) else outcome.text
             rows.append(row)
         if path is not None:
-            _write(Path(path), rows)
+            write_rows(Path(path), rows)
         return rows
 
     def variants(self, count_: int = 10, loss: float = 3.0) -> list[Answer]:
@@ -430,7 +430,8 @@ def _ends(places: NDArray[np.float64], share: float) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def _write(place: Path, rows: list[dict[str, Any]]) -> None:
+def write_rows(place: Path, rows: list[dict[str, Any]]) -> None:
+    """Write rows that have the same names, as .csv or .parquet."""
     names = list(rows[0]) if rows else ["number"]
     if place.suffix == ".parquet":
         arrow = optional("pyarrow", "writing Parquet", "parquet")
