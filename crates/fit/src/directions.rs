@@ -53,11 +53,11 @@ pub fn along(archive: &Archive, rows: &[usize]) -> Matrix {
         return Matrix::zeros(1, n);
     }
     let mut out = Matrix::zeros(count, n);
-    for c in 0..count {
+    for (c, value) in values.iter().enumerate().take(count) {
         // W U S^-1, with U = factor vectors S^-1.
         let mut combination = vec![0.0; n];
         for k in 0..rank {
-            crate::linear::add_scaled(&mut combination, vectors.row(c)[k] / values[c], factor.row(k));
+            crate::linear::add_scaled(&mut combination, vectors.row(c)[k] / value, factor.row(k));
         }
         combination.iter_mut().zip(&weights).for_each(|(x, w)| *x *= w);
         for i in 0..n {

@@ -3,6 +3,8 @@
 //! A dot product has eight partial sums, whatever the machine has; each is a sum of every eighth product, and they are
 //! added pairwise. The compiler may compute several of them at once, which changes no bit.
 
+#![expect(clippy::needless_range_loop, reason = "indices are those of the books")]
+
 /// The number of partial sums.
 const LANES: usize = 8;
 

@@ -1,8 +1,8 @@
 //! Ask and tell: which point is evaluated next.
 //!
-//! Points are proposed in batches. A batch depends on the evaluations of all batches before it, and on nothing else: neither
-//! on how many points are pending, nor on when they are told. So the points and their order are the same for any number of
-//! workers.
+//! Points are proposed in batches. A batch depends on the evaluations of all batches before it, but for [`AHEAD`] points, and
+//! on nothing else: neither on how many points are pending, nor on when they are told. So the points and their order are
+//! the same for any number of workers.
 //!
 //! A batch has four kinds of picks among the candidates: the best predicted; the best if what is unknown turns out well; the
 //! best of these with another structure; and one that no emulator has screened, for when it is wrong. After [`PATIENCE`]
@@ -23,12 +23,12 @@ use std::collections::{HashSet, VecDeque};
 const BATCH: [usize; 2] = [4, 8];
 /// The number of evaluations after which batches are larger.
 const LATE: usize = 300;
-/// Candidates from parents; the best of them are changed in two generations.
-const POOL: usize = 80;
-const KEPT: usize = 15;
-const GENERATIONS: [f64; 2] = [0.5, 0.25];
+/// Candidates from parents; the best of them are changed in generations, less and less.
+const POOL: usize = 240;
+const KEPT: usize = 30;
+const GENERATIONS: [f64; 4] = [0.5, 0.25, 0.125, 0.1];
 /// How much of what is unknown an optimist hopes for, standard deviations.
-const HOPE: f64 = 0.5;
+const HOPE: f64 = 1.0;
 /// Steps of the length scales for a batch: at the first, and later; and before questions.
 const STEPS: [usize; 2] = [12, 3];
 const CAREFUL: usize = 40;
@@ -38,6 +38,8 @@ const GAIN: f64 = 0.05;
 /// The least squared distance of two picks of a batch, in length scales: early, and later.
 const APART: [f64; 2] = [2e-3, 2e-4];
 const EARLY: usize = 150;
+/// Points of a batch that the next one does not wait for, so that workers need not wait for the slowest of a batch.
+const AHEAD: usize = 0;
 /// Draws of a new point that may all be known, after which the space counts as exhausted.
 const DRAWS: usize = 300;
 
@@ -61,6 +63,10 @@ pub struct Proposer {
     /// Points of the batch that are not asked for yet.
     queue: VecDeque<Asked>,
     keys: HashSet<Vec<u64>>,
+    /// Evaluations that are told and not in the archive yet, with what they used.
+    told: VecDeque<(Evaluation, Option<Vec<bool>>)>,
+    /// The number of features of an evaluation.
+    features: Option<usize>,
     batches: u64,
     /// The first evaluation that may be a parent.
     epoch: usize,
@@ -84,6 +90,8 @@ impl Proposer {
             asked: vec![],
             queue: VecDeque::new(),
             keys: HashSet::new(),
+            told: VecDeque::new(),
+            features: None,
             batches: 0,
             epoch: 0,
             is_fresh: false,
@@ -100,7 +108,7 @@ impl Proposer {
         &self.space
     }
 
-    /// The evaluations that were told.
+    /// The evaluations that were learnt from.
     pub fn archive(&self) -> &Archive {
         &self.archive
     }
@@ -121,9 +129,11 @@ impl Proposer {
     /// The next point; None if it depends on a point that is not told yet, or if the space is exhausted.
     pub fn ask(&mut self) -> Option<Point> {
         if self.queue.is_empty() {
-            if self.archive.len() < self.asked.len() {
+            let needed = self.asked.len().saturating_sub(AHEAD);
+            if self.archive.len() + self.told.len() < needed {
                 return None;
             }
+            self.absorb(needed);
             self.fill();
         }
         let next = self.queue.pop_front()?;
@@ -138,19 +148,35 @@ impl Proposer {
     /// # Errors
     /// A text, if all points that were asked for are told, or if features differ in number from those before.
     pub fn tell(&mut self, evaluation: Evaluation, used: Option<&[bool]>) -> Result<(), String> {
-        let number = self.archive.len();
-        let Some(Asked { mut point, is_plain }) = self.asked.get(number).cloned() else {
+        let number = self.archive.len() + self.told.len();
+        if number >= self.asked.len() {
             return Err("every point that was asked for is told".into());
-        };
+        }
         if let Some(features) = &evaluation.features {
-            let known = (0..number).find_map(|other| self.archive.features(other));
-            if known.is_some_and(|known| known.len() != features.len()) {
+            if *self.features.get_or_insert(features.len()) != features.len() {
                 return Err(format!("{} features, as many as before expected", features.len()));
             }
             if features.iter().any(|x| !x.is_finite()) {
                 return Err("features must be finite".into());
             }
         }
+        self.told.push_back((evaluation, used.map(<[bool]>::to_vec)));
+        Ok(())
+    }
+
+    /// Moves evaluations that are told into the archive, until it has so many.
+    fn absorb(&mut self, count: usize) {
+        while self.archive.len() < count
+            && let Some((evaluation, used)) = self.told.pop_front()
+        {
+            self.learn(evaluation, used.as_deref());
+        }
+    }
+
+    /// Learns from the next evaluation.
+    fn learn(&mut self, evaluation: Evaluation, used: Option<&[bool]>) {
+        let number = self.archive.len();
+        let Asked { mut point, is_plain } = self.asked[number].clone();
         if let Some(used) = used.filter(|used| **used != point.used) {
             self.space.learn(&point, used);
             for (axis, is_used) in used.iter().enumerate() {
@@ -172,7 +198,13 @@ impl Proposer {
         if has_won {
             self.best = Some(number);
         }
-        Ok(())
+    }
+
+    /// The search with everything that was told in its archive, for questions.
+    pub fn informed(&self) -> Proposer {
+        let mut out = self.clone();
+        out.absorb(usize::MAX);
+        out
     }
 
     /// Queues the first points of an epoch.
@@ -190,7 +222,7 @@ impl Proposer {
         self.batches += 1;
         if self.is_stuck() {
             self.is_fresh = !self.is_fresh;
-            self.epoch = if self.is_fresh { self.archive.len() } else { 0 };
+            self.epoch = if self.is_fresh { self.asked.len() } else { 0 };
             self.rise = (self.archive.len(), f64::NEG_INFINITY);
             if self.is_fresh {
                 self.design(self.batches);
@@ -201,7 +233,7 @@ impl Proposer {
         }
         let mut dice = Dice::new(self.seed, Purpose::Candidates, self.batches);
         let count = BATCH[usize::from(self.archive.len() > LATE)];
-        let ranked = self.archive.ranked(self.epoch);
+        let ranked = self.archive.ranked(self.epoch.min(self.archive.len()));
         for Asked { point, is_plain } in self.batch(&ranked, count, &mut dice) {
             if self.keys.insert(point.key()) {
                 self.queue.push_back(Asked { point, is_plain });
@@ -245,7 +277,9 @@ impl Proposer {
         if let Some(emulator) = &emulator {
             let unscreened = (count / 4).max(1);
             let least = APART[usize::from(self.archive.len() >= EARLY)];
-            for point in pick(&moves, emulator, count - unscreened, &taken, least, dice) {
+            let pending: Vec<Point> =
+                self.asked[self.archive.len()..].iter().map(|asked| asked.point.clone()).collect();
+            for point in pick(&moves, emulator, count - unscreened, &taken, &pending, least, dice) {
                 taken.insert(point.key());
                 out.push(Asked { point, is_plain: false });
             }
@@ -317,6 +351,7 @@ fn pick(
     emulator: &Emulator,
     count: usize,
     known: &HashSet<Vec<u64>>,
+    pending: &[Point],
     least: f64,
     dice: &mut Dice,
 ) -> Vec<Point> {
@@ -343,7 +378,7 @@ fn pick(
         if turn == 2 && has_levels && first.as_ref() == Some(&structure) && rest > 3 {
             continue;
         }
-        if picked.iter().any(|other| moves.are_close(emulator.scales(), point, other, least)) {
+        if picked.iter().chain(pending).any(|other| moves.are_close(emulator.scales(), point, other, least)) {
             continue;
         }
         first.get_or_insert(structure);
@@ -352,7 +387,7 @@ fn pick(
     picked
 }
 
-/// New points from parents, and two generations of changes to the most promising of them.
+/// New points from parents, and generations of changes to the most promising of them.
 fn candidates(moves: &Moves<'_>, emulator: &Emulator, dice: &mut Dice) -> Vec<Candidate> {
     let predicted = |point: Point| {
         let kernel = emulator.kernel(&point.row);

@@ -103,13 +103,12 @@ impl Space {
                 }
             }
         }
-        let mut dependents = vec![vec![]; axes.len()];
+        let mut dependents: Vec<Vec<usize>> = vec![vec![]; axes.len()];
         for (number, axis) in axes.iter().enumerate() {
-            for parent in 0..number {
-                let of_parent: &[usize] = &dependents[parent];
+            for (parent, of_parent) in dependents[..number].iter_mut().enumerate() {
                 let names = |k: usize| k == parent || of_parent.contains(&k);
                 if axis.when.iter().flatten().any(|(other, _)| names(*other)) {
-                    dependents[parent].push(number);
+                    of_parent.push(number);
                 }
             }
         }
@@ -182,8 +181,8 @@ impl Space {
     /// The point at a row of the unit cube, in canonical form.
     pub fn snap(&self, row: &[f64]) -> Point {
         let mut out = Point { row: row.to_vec(), used: vec![true; row.len()] };
-        for axis in 0..self.len() {
-            let x = if row[axis].is_nan() { 0.5 } else { row[axis].clamp(0.0, 1.0) };
+        for (axis, x) in row.iter().enumerate() {
+            let x = if x.is_nan() { 0.5 } else { x.clamp(0.0, 1.0) };
             let used = self.holds(axis, &out);
             out.used[axis] = used;
             out.row[axis] = match (used, self.has_levels(axis)) {
@@ -231,8 +230,8 @@ impl Space {
 
     /// Stores which parameters an evaluation used.
     pub fn learn(&mut self, asked: &Point, used: &[bool]) {
-        for axis in 0..self.len() {
-            self.learnt[axis] |= asked.used[axis] && !used[axis];
+        for (axis, is_used) in used.iter().enumerate() {
+            self.learnt[axis] |= asked.used[axis] && !is_used;
         }
         let told = Told { levels: self.structure(asked), used: used.to_vec() };
         self.told.retain(|other| other.levels != told.levels);

@@ -7,7 +7,7 @@
 /// 1.5 * 2^52: adding it rounds a number below 2^51 to a whole one, whose bits are then the lowest.
 const SHIFT: f64 = 6_755_399_441_055_744.0;
 /// ln 2 in two parts; products of the first with whole numbers below 2^11 are exact.
-const LN_2: [f64; 2] = [6.931_471_803_691_238_2e-1, 1.908_214_929_270_587_7e-10];
+const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
 /// 1 / k! for k from 2 to 12.
 const TAYLOR: [f64; 11] = [
     0.5,

@@ -13,8 +13,8 @@ type Asked = (Vec<f64>, Vec<bool>);
 #[pyclass(name = "Proposer", module = "niwaki._engine")]
 pub struct PyProposer {
     proposer: Proposer,
-    /// The emulator of all evaluations, until the next one is told.
-    emulator: Option<Emulator>,
+    /// The search with all evaluations, and its emulator, until the next one is told.
+    informed: Option<(Proposer, Emulator)>,
 }
 
 fn asked(point: Point) -> Asked {
@@ -29,7 +29,7 @@ impl PyProposer {
         let axes: Vec<Axis> =
             serde_json::from_str(space).map_err(|error| PyValueError::new_err(error.to_string()))?;
         let space = Space::new(axes).map_err(PyValueError::new_err)?;
-        Ok(PyProposer { proposer: Proposer::new(space, seed), emulator: None })
+        Ok(PyProposer { proposer: Proposer::new(space, seed), informed: None })
     }
 
     /// Puts the point at a ``row`` before all that are not asked for yet.
@@ -58,7 +58,7 @@ impl PyProposer {
             self.check(used.len())?;
         }
         let features = features.map(|features| features.as_array().iter().map(|x| f64::from(*x)).collect());
-        self.emulator = None;
+        self.informed = None;
         self.proposer.tell(Evaluation { score, features }, used.as_deref()).map_err(PyValueError::new_err)
     }
 
@@ -76,13 +76,13 @@ impl PyProposer {
 
     /// Length scales of each parameter: along its range, and between different levels.
     fn scales(&mut self) -> PyResult<(Vec<f64>, Vec<f64>)> {
-        let scales = self.emulator()?.scales();
+        let scales = self.informed()?.1.scales();
         Ok((scales.along.clone(), scales.apart.clone()))
     }
 
     /// The variance of features along each direction, far from all evaluations.
     fn variances(&mut self) -> PyResult<Vec<f64>> {
-        Ok(self.emulator()?.variances().to_vec())
+        Ok(self.informed()?.1.variances().to_vec())
     }
 
     /// Predicted features of rows (n, parameters) along the directions, (n, directions), and the share of the variance that is
@@ -95,7 +95,7 @@ impl PyProposer {
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>)> {
         self.check(rows.as_array().ncols())?;
         let rows: Vec<Vec<f64>> = rows.as_array().rows().into_iter().map(|row| row.to_vec()).collect();
-        let emulator = self.emulator()?;
+        let emulator = &self.informed()?.1;
         let (mut means, mut left) = (Vec::with_capacity(rows.len()), vec![]);
         for row in &rows {
             let kernel = emulator.kernel(row);
@@ -120,10 +120,10 @@ impl PyProposer {
         steps: usize,
         about: Option<usize>,
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<bool>>)> {
-        let scales = self.emulator()?.scales().clone();
-        let (proposer, settings) = (&self.proposer, Posterior { power, chains, steps, seed });
+        let (proposer, emulator) = self.informed()?;
+        let settings = Posterior { power, chains, steps, seed };
         let points = py
-            .detach(|| proposer.posterior(&scales, about, settings))
+            .detach(|| proposer.posterior(emulator.scales(), about, settings))
             .ok_or_else(|| PyValueError::new_err("too few scenes are told"))?;
         let shape = (points.len(), proposer.space().len());
         let rows = Array2::from_shape_fn(shape, |(i, axis)| points[i].row[axis]);
@@ -141,12 +141,13 @@ impl PyProposer {
         }
     }
 
-    /// The emulator of all evaluations.
-    fn emulator(&mut self) -> PyResult<&Emulator> {
-        if self.emulator.is_none() {
-            self.emulator = self.proposer.emulator();
+    /// The search with all evaluations, and its emulator.
+    fn informed(&mut self) -> PyResult<&(Proposer, Emulator)> {
+        if self.informed.is_none() {
+            let proposer = self.proposer.informed();
+            self.informed = proposer.emulator().map(|emulator| (proposer, emulator));
         }
-        self.emulator.as_ref().ok_or_else(|| PyValueError::new_err("fewer than two scenes are told"))
+        self.informed.as_ref().ok_or_else(|| PyValueError::new_err("fewer than two scenes are told"))
     }
 }
 
