@@ -6,7 +6,8 @@
 
 Each search of a problem is a line of out/fit/records.jsonl (OUT names another folder); what is there is not done
 again. The eight old generators have two targets each, the eight fresh ones have one. Leaves tables.md in the folder.
-Two worker processes; the libraries of matrices are limited to one thread.
+Two worker processes; the libraries of matrices are limited to one thread. Nevergrad, pymoo and openscad-evaluator need
+packages under the GPL or the LGPL, and are in no lock: what is not installed is left out, with a line.
 """
 
 import os

@@ -83,7 +83,7 @@ def test_import_loads_nothing_that_is_not_always_needed():
 def test_locks_pin_every_requirement_with_a_hash():
     locks = sorted((ROOT / "requirements").glob("*.txt"))
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
-    unlocked = {"arviz", "color", "notebook", "parquet", "print", "scad", "stacks"}
+    unlocked = {"arviz", "color", "notebook", "parquet", "print", "stacks"}
     assert {lock.stem for lock in locks} == set(extras) - unlocked | {"core"}
     for lock in locks:
         entries = re.split(r"\n(?=\S)", lock.read_text().strip())
@@ -131,6 +131,7 @@ BY_NAME = {
     "checkup/inspection.py",
     "errors/extras.py",
     "fitting/functions.py",
+    "fitting/openscad.py",
     "gallery/__init__.py",
     "inputs/child.py",
     "search/data.py",

@@ -16,7 +16,6 @@ EXTRAS = {
     "notebook": "a viewer in a notebook whose results can be replaced (`niwaki.view(...).widget()`)",
     "parquet": "a batch's table as Parquet (`niwaki batch export --format parquet`)",
     "print": "one closed solid for a printer (`--format stl`, `--format 3mf`)",
-    "scad": "evaluating OpenSCAD files (`niwaki fit box.scad`)",
     "stacks": "judging structures of blocks, and their cutting sheets (`niwaki.stacks`)",
     "studio": "the studio, a page in your browser (`niwaki studio`)",
 }

@@ -1,7 +1,8 @@
 """OpenSCAD files as generators: parameters by their Customizer, evaluated by a library or by the program.
 
-The library `openscad-evaluator` (an extra) evaluates in the worker process; without it, the program `openscad` runs for
-each evaluation. OpenSCAD's z is up, and so is the mesh's.
+The library `openscad-evaluator` evaluates in the worker process; without it, the program `openscad` runs for each
+evaluation. The library is none of the package's extras, because it needs a package under the LGPL. OpenSCAD's z is up,
+and so is the mesh's.
 """
 
 from __future__ import annotations
@@ -13,22 +14,21 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Mapping
+from importlib import import_module
 from importlib.util import find_spec
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from niwaki.errors import InputError
-from niwaki.errors.extras import optional
 from niwaki.fitting.commands import SHOWN, levels, read, space_of_levels, text_of
 from niwaki.fitting.customizer import slots, written
 from niwaki.fitting.generator import Called, Generator, Numbers
 from niwaki.fitting.space import Space
 from niwaki.inputs import text_of as file_text
 
-#: The library that evaluates a file, and the extra that has it.
-LIBRARY, EXTRA = "openscad_evaluator", "scad"
-PROGRAM = "openscad"
+#: The library and the program that evaluate a file.
+LIBRARY, PROGRAM = "openscad_evaluator", "openscad"
 
 
 def scad(path: str | PathLike[str], **ranges: Any) -> ScadGenerator:
@@ -45,9 +45,10 @@ def scad(path: str | PathLike[str], **ranges: Any) -> ScadGenerator:
     Raises
     ------
     InputError
-        `no-ranges`: the file has no parameters; `bad-setting`: a name is none of the file's.
+        `no-ranges`: the file has no parameters; `bad-setting`: a name is none of the file's; `no-openscad`: neither the
+        library nor the program is there.
     FileError
-        The file cannot be read; `missing-extra`: neither the library nor the program is there.
+        The file cannot be read.
     """
     return ScadGenerator(Path(path), ranges)
 
@@ -84,8 +85,8 @@ class ScadGenerator(Generator):
             )
         self.space = space or Space(parameters)
         self.program = None if find_spec(LIBRARY) else shutil.which(PROGRAM)
-        if self.program is None:
-            optional(LIBRARY, f"evaluating {path.name}", EXTRA, f"install the program `{PROGRAM}`")
+        if self.program is None and find_spec(LIBRARY) is None:
+            raise InputError("no-openscad", name=path.name)
 
     def call(self, numbers: Numbers) -> Called:
         """Evaluate the file with other values in its assignments."""
@@ -147,9 +148,7 @@ def _literal(value: Any) -> str:
 
 def _evaluated(source: str) -> Any:
     """Evaluate a source by the library: the union of its bodies, as a manifold; None for an empty one."""
-    task = "evaluating an OpenSCAD file"
-    evaluator, parser = optional(LIBRARY, task, EXTRA), optional("openscad_lalr_parser", task, EXTRA)
-    manifold3d = optional("manifold3d", task, EXTRA)
+    evaluator, parser, manifold3d = map(import_module, (LIBRARY, "openscad_lalr_parser", "manifold3d"))
     nodes = parser.getASTfromString(source)
     bodies, _ = evaluator.Evaluator().evaluate(nodes, parser.build_scopes(nodes))
     solids = [body.body for body in bodies if body.body is not None]

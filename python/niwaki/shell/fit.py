@@ -36,7 +36,9 @@ OPTIONS = (
 
 ModelFile = Annotated[
     str,
-    typer.Argument(metavar="MODEL", help="file.py:function, which is run, or an OpenSCAD file: box.scad."),
+    typer.Argument(
+        metavar="GENERATOR", help="file.py:function, which is run, or an OpenSCAD file: box.scad."
+    ),
 ]
 
 
@@ -73,7 +75,7 @@ def fit(
     *,
     images: pictures.Pictures,
 ) -> None:
-    """Fit the parameters of MODEL to a target. Writes fit.json, table.csv, best.glb, best.png, sheet.png.
+    """Fit the parameters of GENERATOR to a target. Writes fit.json, table.csv, best.glb, best.png, sheet.png.
 
     The same command goes on where it stopped.
     """

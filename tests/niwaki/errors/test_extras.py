@@ -16,7 +16,6 @@ from niwaki.batches import clusters, export
 from niwaki.color.raster import raster
 from niwaki.errors import FileError
 from niwaki.errors.extras import EXTRAS, optional
-from niwaki.fitting import openscad
 from niwaki.notebook.viewer import View
 from niwaki.result import diagnostics
 from niwaki.shell.app import app
@@ -54,7 +53,6 @@ NEEDS: list[tuple[str, str, Callable[[Path], object]]] = [
     ("notebook", "anywidget", lambda _: View([]).widget()),
     ("parquet", "pyarrow", lambda folder: export.write_parquet(folder / "a.parquet", cast(Any, None))),
     ("print", "manifold3d", printed),
-    ("scad", "openscad_evaluator", lambda _: openscad._evaluated("cube(1);")),
     ("stacks", "scipy.sparse", lambda _: judges.need("scipy.sparse")),
     ("studio", "uvicorn", in_the_studio),
 ]

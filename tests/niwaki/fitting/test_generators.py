@@ -15,6 +15,7 @@ from niwaki.fitting.draws import DrawError, Draws
 from niwaki.fitting.functions import FunctionGenerator
 from niwaki.fitting.generator import value_of
 from niwaki.fitting.loading import generator_of, generator_of_recipe
+from niwaki.fitting.meshes import mesh_of
 from niwaki.words.distributions import Bernoulli, DiscreteUniform, Uniform
 
 
@@ -175,6 +176,22 @@ def test_a_file_is_evaluated_by_the_program_with_other_values(openscad, monkeypa
     assert vertices.max() == 33.0
     with pytest.raises(InputError, match="a parameter of box.scad: width, count"):
         nw.scad(openscad, widht=4)
+
+
+def test_a_machine_without_openscad_is_told_what_to_install(tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setattr("niwaki.fitting.openscad.find_spec", lambda name: None)
+    (tmp_path / "box.scad").write_text(SCAD)
+    with pytest.raises(InputError) as error:
+        nw.scad(tmp_path / "box.scad")
+    assert error.value.code == "no-openscad" and "pip install openscad-evaluator" in str(error.value)
+
+
+def test_the_library_evaluates_a_file(tmp_path):
+    pytest.importorskip("openscad_evaluator")
+    (tmp_path / "box.scad").write_text(SCAD)
+    vertices, _ = mesh_of(nw.scad(tmp_path / "box.scad").call({"width": 33.0}).mesh)
+    assert vertices.max() == 33.0
 
 
 def test_a_file_without_parameters_is_refused(tmp_path):

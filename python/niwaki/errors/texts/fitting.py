@@ -23,6 +23,14 @@ FITTING = (
         cure='niwaki.command(["tool", "--w", "{w}", "-o", "{out}.stl"], w=niwaki.Uniform(20, 80))',
     ),
     Message(
+        "no-openscad",
+        "`{name}` cannot be evaluated: there is no OpenSCAD here",
+        why="the parameters are written into the file, and OpenSCAD makes the mesh",
+        help="install the program `openscad`, or the faster library with `pip install openscad-evaluator manifold3d`",
+        example="niwaki fit box.scad --target bracket.stl, on a machine without OpenSCAD",
+        cure="pip install openscad-evaluator manifold3d",
+    ),
+    Message(
         "all-failed",
         "the first {count} evaluations of `{name}` all failed",
         why="the first: {reason}",
