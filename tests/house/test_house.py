@@ -174,7 +174,7 @@ def test_help_names_only_what_there_is():
 
 
 def test_crates_import_only_the_rooms_above_them():
-    crates = ["math", "geom", "render", "native", "vm", "grad", "guide", "continuous", "run"]
+    crates = ["math", "geom", "render", "native", "vm", "grad", "guide", "continuous", "fit", "run"]
     crates += ["propose", "chain", "agreement", "particles", "search", "py"]
     assert set(crates) == {manifest.parent.name for manifest in (ROOT / "crates").glob("*/Cargo.toml")}
     for place, crate in enumerate(crates):

@@ -4,12 +4,12 @@ use crate::linear::dot;
 use crate::space::Point;
 use std::cmp::Ordering;
 
-/// What an evaluation gave.
+/// An outcome of an evaluation.
 #[derive(Clone, Debug)]
 pub struct Evaluation {
     /// The log score, nats; minus infinity for a scene that is forbidden and for an evaluation that failed.
     pub score: f64,
-    /// What the scene gets wrong; None for an evaluation that failed. Empty for goals without features.
+    /// The errors of the scene; None for an evaluation that failed. Empty for goals without features.
     pub features: Option<Vec<f64>>,
 }
 
@@ -96,9 +96,9 @@ impl Archive {
     /// products are enough.
     pub fn about(&self, target: usize, least: f64) -> Archive {
         let is_far = |k: usize| !self.is_seen(k) || self.square_between(k, target) >= least;
-        let others: Vec<usize> = (0..self.len()).filter(|k| *k != target && is_far(*k)).collect();
+        let rows: Vec<usize> = (0..self.len()).filter(|k| *k != target && is_far(*k)).collect();
         let mut out = Archive { has_features: self.has_features, ..Archive::default() };
-        for (place, number) in others.iter().enumerate() {
+        for (place, number) in rows.iter().enumerate() {
             let seen = self.is_seen(*number);
             let shifted = |other: &usize| match self.is_seen(*other) {
                 false => 0.0,
@@ -109,8 +109,7 @@ impl Archive {
                         + self.product(target, target)
                 }
             };
-            let products: Vec<f64> =
-                if seen { others[..=place].iter().map(shifted).collect() } else { vec![] };
+            let products: Vec<f64> = if seen { rows[..=place].iter().map(shifted).collect() } else { vec![] };
             let score = products.last().map_or(f64::NEG_INFINITY, |square| -0.5 * square);
             out.points.push(self.points[*number].clone());
             out.evaluations.push(Evaluation { score, features: seen.then(Vec::new) });
@@ -130,5 +129,52 @@ impl Archive {
         let mut out: Vec<usize> = (from..self.len()).filter(|k| self.is_seen(*k)).collect();
         out.sort_by(|a, b| self.compare(*a, *b));
         out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! The archive about a pseudo-target is that of features less its own; ranks follow scores.
+    use super::*;
+    use crate::dice::{Dice, Purpose};
+
+    fn archive(count: usize) -> Archive {
+        let mut dice = Dice::new(8, Purpose::Design, 0);
+        let mut out = Archive::default();
+        for k in 0..count {
+            let features = (k != 3).then(|| (0..10).map(|_| dice.normal()).collect());
+            let point = Point { row: vec![dice.uniform()], used: vec![true] };
+            out.push(point, Evaluation { score: -((k * 7 % 5) as f64), features });
+        }
+        out
+    }
+
+    #[test]
+    fn about_a_pseudo_target_features_are_less_its_own() {
+        let all = archive(12);
+        let about = all.about(5, 0.0);
+        assert_eq!(about.len(), 11);
+        let features = |k: usize| -> Vec<f64> {
+            all.features(k).unwrap().iter().zip(all.features(5).unwrap()).map(|(x, y)| x - y).collect()
+        };
+        let rows: Vec<usize> = (0..12).filter(|k| *k != 5).collect();
+        for (i, a) in rows.iter().enumerate().filter(|(_, k)| **k != 3) {
+            assert_eq!(about.point(i), all.point(*a));
+            for (j, b) in rows.iter().enumerate().filter(|(_, k)| **k != 3) {
+                assert!((about.product(i, j) - dot(&features(*a), &features(*b))).abs() < 1e-12);
+            }
+        }
+        assert!(!about.is_seen(3));
+        let least = 1.0 + about.ranked(0).iter().map(|k| about.square(*k)).fold(f64::INFINITY, f64::min);
+        let far = all.about(5, least);
+        assert!(far.len() < 11 && far.ranked(0).iter().all(|k| far.square(*k) >= least));
+    }
+
+    #[test]
+    fn the_best_comes_first_and_failures_not_at_all() {
+        let all = archive(12);
+        let ranked = all.ranked(2);
+        assert!(ranked.windows(2).all(|pair| all.score(pair[0]) >= all.score(pair[1])));
+        assert_eq!(ranked.len(), 9);
     }
 }

@@ -59,11 +59,11 @@ mod tests {
     #[test]
     fn each_part_of_a_range_has_a_point() {
         let space = Space::new(vec![axis(Kind::Real, 0, vec![]), axis(Kind::Choice, 4, vec![])]).unwrap();
-        let found = points(&space, 12, &mut Dice::new(7, Purpose::Design, 0));
-        let mut parts: Vec<usize> = found.iter().map(|point| (point.row[0] * 12.0) as usize).collect();
+        let design = points(&space, 12, &mut Dice::new(7, Purpose::Design, 0));
+        let mut parts: Vec<usize> = design.iter().map(|point| (point.row[0] * 12.0) as usize).collect();
         parts.sort_unstable();
         assert_eq!(parts, (0..12).collect::<Vec<_>>());
-        let with = |level| found.iter().filter(|point| space.level(1, point.row[1]) == level).count();
+        let with = |level| design.iter().filter(|point| space.level(1, point.row[1]) == level).count();
         assert_eq!([with(0), with(1), with(2), with(3)], [3; 4]);
     }
 }

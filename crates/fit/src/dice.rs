@@ -2,7 +2,7 @@
 
 use niwaki_math::{Stream, portable};
 
-/// What random numbers are for; each purpose has a stream of its own.
+/// Purposes of random numbers; each has a stream of its own.
 #[derive(Clone, Copy, Debug)]
 pub enum Purpose {
     /// The first points.

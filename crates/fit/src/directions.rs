@@ -102,11 +102,11 @@ mod tests {
             archive.push(point, Evaluation { score: 0.0, features: Some(features) });
         }
         let rows: Vec<usize> = (0..60).collect();
-        let found = along(&archive, &rows).transposed();
-        assert_eq!(found.columns, 5);
+        let features = along(&archive, &rows).transposed();
+        assert_eq!(features.columns, 5);
         for i in 0..60 {
             for j in 0..60 {
-                let (plain, kept) = (archive.product(i, j), dot(found.row(i), found.row(j)));
+                let (plain, kept) = (archive.product(i, j), dot(features.row(i), features.row(j)));
                 assert!((plain - kept).abs() < 1e-6 * archive.square(i).max(archive.square(j)));
             }
         }

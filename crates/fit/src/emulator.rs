@@ -49,7 +49,7 @@ pub struct Emulator {
     failed: Option<Columns>,
 }
 
-/// What is computed from length scales, for given rows.
+/// The results of length scales, for some rows.
 struct Trial {
     log_posterior: f64,
     factor: Cholesky,
@@ -196,9 +196,10 @@ fn select(space: &Space, archive: &Archive, ranked: &[usize], scales: &Scales) -
     chosen
 }
 
-/// The number of directions of equal variance that would be as uneven as these shares, which sum to 1.
+/// The number of directions that a likelihood counts for: the root of the number of directions of equal variance that would be
+/// as uneven as these shares, which sum to 1. Directions of one geometry are not independent, nor are they all one.
 fn effective(shares: &[f64]) -> f64 {
-    1.0 / shares.iter().map(|share| share * share).sum::<f64>()
+    (1.0 / shares.iter().map(|share| share * share).sum::<f64>()).sqrt()
 }
 
 /// Rows, and their features along the directions, less their means.
@@ -242,8 +243,8 @@ impl Learnt<'_> {
             }
             next.clamp();
             before = slope;
-            let Some(found) = self.trial(&next) else { break };
-            let last = (std::mem::replace(&mut now, next), std::mem::replace(&mut trial, found));
+            let Some(other) = self.trial(&next) else { break };
+            let last = (std::mem::replace(&mut now, next), std::mem::replace(&mut trial, other));
             let is_best =
                 best.as_ref().is_none_or(|(_, t): &(Scales, Trial)| last.1.log_posterior > t.log_posterior);
             if is_best {
@@ -251,7 +252,7 @@ impl Learnt<'_> {
             }
         }
         match best {
-            Some((scales, found)) if found.log_posterior >= trial.log_posterior => Some((scales, found)),
+            Some((scales, other)) if other.log_posterior >= trial.log_posterior => Some((scales, other)),
             _ => Some((now, trial)),
         }
     }

@@ -16,11 +16,11 @@ pub struct Scales {
     pub apart: Vec<f64>,
 }
 
-/// What is known of length scales beforehand: the logarithm has this mean and the standard deviation [`SPREAD`].
+/// The median of length scales along ranges beforehand; their logarithm has the standard deviation [`SPREAD`].
 const ALONG: f64 = 1.0;
-/// The same for whole numbers that differ.
+/// The median for whole numbers that differ.
 const APART: f64 = 2.0;
-/// The same for choices that differ.
+/// The median for choices that differ.
 const CHOICE: f64 = 1.5;
 /// The standard deviation of the logarithm.
 const SPREAD: f64 = 0.5;

@@ -15,7 +15,7 @@ const DONORS: usize = 20;
 /// The best points of this many structures are parents, too.
 const STRUCTURES: usize = 6;
 
-/// What was learnt about changes: the usual step of each real parameter, and the gain from changing each level.
+/// Experience with changes: the usual step of each real parameter, and the gain from changing each level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Habits {
     /// The standard deviation of a step, as a share of the range.
@@ -60,14 +60,14 @@ impl Habits {
     }
 }
 
-/// What moves start from: the archive, its best points, and what was learnt.
+/// The material of moves: the archive, its best points, and the experience.
 #[derive(Debug)]
 pub struct Moves<'a> {
     /// The parameters.
     pub space: &'a Space,
     /// The evaluations.
     pub archive: &'a Archive,
-    /// What was learnt.
+    /// The experience.
     pub habits: &'a Habits,
     /// The best points, best first.
     elite: Vec<usize>,
@@ -120,8 +120,8 @@ impl<'a> Moves<'a> {
         let mut row = parent.row.clone();
         if dice.chance(0.5) {
             let axis = dice.below(self.space.len());
-            for taken in std::iter::once(axis).chain(self.space.dependents(axis).iter().copied()) {
-                row[taken] = other.row[taken];
+            for moved in std::iter::once(axis).chain(self.space.dependents(axis).iter().copied()) {
+                row[moved] = other.row[moved];
             }
         } else {
             for (x, y) in row.iter_mut().zip(&other.row) {

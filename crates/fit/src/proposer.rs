@@ -25,10 +25,14 @@ const BATCH: [usize; 2] = [4, 8];
 const LATE: usize = 300;
 /// Candidates from parents; the best of them are changed in generations, less and less.
 const POOL: usize = 240;
-const KEPT: usize = 30;
+const KEPT: usize = 20;
+/// Structures of which the best candidate is changed further, too.
+const NICHES: usize = 12;
 const GENERATIONS: [f64; 4] = [0.5, 0.25, 0.125, 0.1];
 /// How much of what is unknown an optimist hopes for, standard deviations.
 const HOPE: f64 = 1.0;
+/// Evaluations of a structure after which it must look twice as good to be picked as another one.
+const OFTEN: f64 = 8.0;
 /// Steps of the length scales for a batch: at the first, and later; and before questions.
 const STEPS: [usize; 2] = [12, 3];
 const CAREFUL: usize = 40;
@@ -39,13 +43,13 @@ const GAIN: f64 = 0.05;
 const APART: [f64; 2] = [2e-3, 2e-4];
 const EARLY: usize = 150;
 /// Points of a batch that the next one does not wait for, so that workers need not wait for the slowest of a batch.
-const AHEAD: usize = 0;
+const AHEAD: usize = 2;
 /// Draws of a new point that may all be known, after which the space counts as exhausted.
 const DRAWS: usize = 300;
 
 /// A point that was asked for, and whether no emulator chose it.
 #[derive(Clone, Debug)]
-struct Asked {
+struct Request {
     point: Point,
     is_plain: bool,
 }
@@ -59,12 +63,12 @@ pub struct Proposer {
     habits: Habits,
     scales: Scales,
     /// Points that were asked for, in order; the archive has the first of them.
-    asked: Vec<Asked>,
+    requests: Vec<Request>,
     /// Points of the batch that are not asked for yet.
-    queue: VecDeque<Asked>,
+    queue: VecDeque<Request>,
     keys: HashSet<Vec<u64>>,
     /// Evaluations that are told and not in the archive yet, with what they used.
-    told: VecDeque<(Evaluation, Option<Vec<bool>>)>,
+    arrivals: VecDeque<(Evaluation, Option<Vec<bool>>)>,
     /// The number of features of an evaluation.
     features: Option<usize>,
     batches: u64,
@@ -87,10 +91,10 @@ impl Proposer {
             archive: Archive::default(),
             habits,
             scales,
-            asked: vec![],
+            requests: vec![],
             queue: VecDeque::new(),
             keys: HashSet::new(),
-            told: VecDeque::new(),
+            arrivals: VecDeque::new(),
             features: None,
             batches: 0,
             epoch: 0,
@@ -122,22 +126,22 @@ impl Proposer {
     pub fn suggest(&mut self, row: &[f64]) {
         let point = self.space.snap(row);
         if self.keys.insert(point.key()) {
-            self.queue.push_front(Asked { point, is_plain: true });
+            self.queue.push_front(Request { point, is_plain: true });
         }
     }
 
     /// The next point; None if it depends on a point that is not told yet, or if the space is exhausted.
     pub fn ask(&mut self) -> Option<Point> {
         if self.queue.is_empty() {
-            let needed = self.asked.len().saturating_sub(AHEAD);
-            if self.archive.len() + self.told.len() < needed {
+            let needed = self.requests.len().saturating_sub(AHEAD);
+            if self.archive.len() + self.arrivals.len() < needed {
                 return None;
             }
             self.absorb(needed);
             self.fill();
         }
         let next = self.queue.pop_front()?;
-        self.asked.push(next.clone());
+        self.requests.push(next.clone());
         Some(next.point)
     }
 
@@ -148,8 +152,8 @@ impl Proposer {
     /// # Errors
     /// A text, if all points that were asked for are told, or if features differ in number from those before.
     pub fn tell(&mut self, evaluation: Evaluation, used: Option<&[bool]>) -> Result<(), String> {
-        let number = self.archive.len() + self.told.len();
-        if number >= self.asked.len() {
+        let number = self.archive.len() + self.arrivals.len();
+        if number >= self.requests.len() {
             return Err("every point that was asked for is told".into());
         }
         if let Some(features) = &evaluation.features {
@@ -160,14 +164,14 @@ impl Proposer {
                 return Err("features must be finite".into());
             }
         }
-        self.told.push_back((evaluation, used.map(<[bool]>::to_vec)));
+        self.arrivals.push_back((evaluation, used.map(<[bool]>::to_vec)));
         Ok(())
     }
 
     /// Moves evaluations that are told into the archive, until it has so many.
     fn absorb(&mut self, count: usize) {
         while self.archive.len() < count
-            && let Some((evaluation, used)) = self.told.pop_front()
+            && let Some((evaluation, used)) = self.arrivals.pop_front()
         {
             self.learn(evaluation, used.as_deref());
         }
@@ -176,7 +180,7 @@ impl Proposer {
     /// Learns from the next evaluation.
     fn learn(&mut self, evaluation: Evaluation, used: Option<&[bool]>) {
         let number = self.archive.len();
-        let Asked { mut point, is_plain } = self.asked[number].clone();
+        let Request { mut point, is_plain } = self.requests[number].clone();
         if let Some(used) = used.filter(|used| **used != point.used) {
             self.space.learn(&point, used);
             for (axis, is_used) in used.iter().enumerate() {
@@ -212,7 +216,7 @@ impl Proposer {
         let mut dice = Dice::new(self.seed, Purpose::Design, epoch);
         for point in design::points(&self.space, design::size(&self.space), &mut dice) {
             if self.keys.insert(point.key()) {
-                self.queue.push_back(Asked { point, is_plain: true });
+                self.queue.push_back(Request { point, is_plain: true });
             }
         }
     }
@@ -222,7 +226,7 @@ impl Proposer {
         self.batches += 1;
         if self.is_stuck() {
             self.is_fresh = !self.is_fresh;
-            self.epoch = if self.is_fresh { self.asked.len() } else { 0 };
+            self.epoch = if self.is_fresh { self.requests.len() } else { 0 };
             self.rise = (self.archive.len(), f64::NEG_INFINITY);
             if self.is_fresh {
                 self.design(self.batches);
@@ -234,9 +238,9 @@ impl Proposer {
         let mut dice = Dice::new(self.seed, Purpose::Candidates, self.batches);
         let count = BATCH[usize::from(self.archive.len() > LATE)];
         let ranked = self.archive.ranked(self.epoch.min(self.archive.len()));
-        for Asked { point, is_plain } in self.batch(&ranked, count, &mut dice) {
+        for Request { point, is_plain } in self.batch(&ranked, count, &mut dice) {
             if self.keys.insert(point.key()) {
-                self.queue.push_back(Asked { point, is_plain });
+                self.queue.push_back(Request { point, is_plain });
             }
         }
         // A batch of known points alone: any new point.
@@ -246,7 +250,7 @@ impl Proposer {
             }
             let point = self.space.draw_point(&mut dice);
             if self.keys.insert(point.key()) {
-                self.queue.push_back(Asked { point, is_plain: true });
+                self.queue.push_back(Request { point, is_plain: true });
             }
         }
         self.is_exhausted = self.queue.is_empty();
@@ -263,8 +267,8 @@ impl Proposer {
     }
 
     /// The points of a batch.
-    fn batch(&mut self, ranked: &[usize], count: usize, dice: &mut Dice) -> Vec<Asked> {
-        let plain = |point| Asked { point, is_plain: true };
+    fn batch(&mut self, ranked: &[usize], count: usize, dice: &mut Dice) -> Vec<Request> {
+        let plain = |point| Request { point, is_plain: true };
         if ranked.is_empty() {
             // No scene yet.
             return (0..count).map(|_| plain(self.space.draw_point(dice))).collect();
@@ -272,16 +276,16 @@ impl Proposer {
         let steps = STEPS[usize::from(self.batches > 1)];
         let emulator = Emulator::train(&self.space, &self.archive, ranked, &self.scales, steps);
         let moves = Moves::new(&self.space, &self.archive, &self.habits, ranked);
-        let mut out: Vec<Asked> = vec![];
-        let mut taken = self.keys.clone();
+        let mut out: Vec<Request> = vec![];
+        let mut known_keys = self.keys.clone();
         if let Some(emulator) = &emulator {
             let unscreened = (count / 4).max(1);
             let least = APART[usize::from(self.archive.len() >= EARLY)];
             let pending: Vec<Point> =
-                self.asked[self.archive.len()..].iter().map(|asked| asked.point.clone()).collect();
-            for point in pick(&moves, emulator, count - unscreened, &taken, &pending, least, dice) {
-                taken.insert(point.key());
-                out.push(Asked { point, is_plain: false });
+                self.requests[self.archive.len()..].iter().map(|request| request.point.clone()).collect();
+            for point in pick(&moves, emulator, count - unscreened, &known_keys, &pending, least, dice) {
+                known_keys.insert(point.key());
+                out.push(Request { point, is_plain: false });
             }
         }
         for _ in 0..DRAWS {
@@ -289,7 +293,7 @@ impl Proposer {
                 break;
             }
             let point = moves.propose(dice);
-            if taken.insert(point.key()) {
+            if known_keys.insert(point.key()) {
                 out.push(plain(point));
             }
         }
@@ -338,11 +342,13 @@ impl Proposer {
     }
 }
 
-/// A candidate with its predicted length, and the length that an optimist hopes for.
+/// A candidate with its predicted length, the length that an optimist hopes for, and a length for the choice of another
+/// structure, which grows with the evaluations that the structure has had.
 struct Candidate {
     point: Point,
     length: f64,
     hoped: f64,
+    fresh: f64,
 }
 
 /// The candidates that an emulator finds most promising, of three kinds in turn.
@@ -361,12 +367,12 @@ fn pick(
         order.sort_by(|a, b| key(&candidates[*a]).total_cmp(&key(&candidates[*b])).then(a.cmp(b)));
         VecDeque::from(order)
     };
-    let (mut by_length, mut by_hope) = (order(|c| c.length), order(|c| c.hoped));
+    let mut orders = [order(|c| c.length), order(|c| c.hoped), order(|c| c.fresh)];
     let mut picked: Vec<Point> = vec![];
     let mut first = None;
     while picked.len() < count {
         let turn = picked.len() % 3;
-        let from = if turn == 0 { &mut by_length } else { &mut by_hope };
+        let from = &mut orders[turn];
         let Some(next) = from.pop_front() else { break };
         let rest = from.len();
         let point = &candidates[next].point;
@@ -387,6 +393,26 @@ fn pick(
     picked
 }
 
+/// The candidates that are changed further, of a pool that is sorted: the best, and the best of each of some other structures.
+/// Without these a structure is judged by parameters that suit another.
+fn survivors(space: &Space, pool: &[(Point, f64, Vec<f64>)]) -> Vec<usize> {
+    let mut structures = vec![];
+    let mut out = vec![];
+    for (place, (point, ..)) in pool.iter().enumerate() {
+        let structure = space.structure(point);
+        let is_new = !structures.contains(&structure);
+        if place < KEPT {
+            out.push(place);
+        } else if is_new && structures.len() < NICHES {
+            out.push(place);
+        }
+        if is_new {
+            structures.push(structure);
+        }
+    }
+    out
+}
+
 /// New points from parents, and generations of changes to the most promising of them.
 fn candidates(moves: &Moves<'_>, emulator: &Emulator, dice: &mut Dice) -> Vec<Candidate> {
     let predicted = |point: Point| {
@@ -397,21 +423,25 @@ fn candidates(moves: &Moves<'_>, emulator: &Emulator, dice: &mut Dice) -> Vec<Ca
     let mut pool: Vec<_> = (0..POOL).map(|_| predicted(moves.propose(dice))).collect();
     for wide in GENERATIONS {
         pool.sort_by(|a, b| a.1.total_cmp(&b.1));
-        let kept = pool.len().min(KEPT);
-        for parent in 0..kept {
+        let parents = survivors(moves.space, &pool);
+        for parent in &parents {
             for _ in 0..2 {
-                pool.push(predicted(moves.mutant(&pool[parent].0, wide, dice)));
+                pool.push(predicted(moves.mutant(&pool[*parent].0, wide, dice)));
             }
             if dice.chance(0.5) {
-                let (a, b) = (dice.below(kept), dice.below(kept));
-                pool.push(predicted(moves.shifted(&pool[parent].0, &pool[a].0, &pool[b].0, 0.7)));
+                let (a, b) = (parents[dice.below(parents.len())], parents[dice.below(parents.len())]);
+                pool.push(predicted(moves.shifted(&pool[*parent].0, &pool[a].0, &pool[b].0, 0.7)));
             }
         }
     }
-    let hope = |(point, length, kernel): (Point, f64, Vec<f64>)| Candidate {
-        point,
-        length,
-        hoped: length - HOPE * emulator.doubt(kernel),
+    let tried: Vec<_> =
+        (0..moves.archive.len()).map(|number| moves.space.structure(moves.archive.point(number))).collect();
+    let hope = |(point, length, kernel): (Point, f64, Vec<f64>)| {
+        let hoped = length - HOPE * emulator.doubt(kernel);
+        let structure = moves.space.structure(&point);
+        let times = tried.iter().filter(|other| **other == structure).count() as f64;
+        let fresh = (hoped.max(0.0) + 0.1 * length.max(0.0)) * (1.0 + times / OFTEN);
+        Candidate { point, length, hoped, fresh }
     };
     pool.into_iter().map(hope).collect()
 }

@@ -10,7 +10,7 @@
 use crate::dice::Dice;
 use serde::Deserialize;
 
-/// What the values of a parameter are like.
+/// Kinds of values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
@@ -28,7 +28,7 @@ pub type When = Vec<Vec<(usize, Vec<usize>)>>;
 /// A parameter.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct Axis {
-    /// What its values are like.
+    /// The kind of its values.
     pub kind: Kind,
     /// The number of levels; 0 for real numbers.
     #[serde(default)]
@@ -46,7 +46,7 @@ pub struct Axis {
 pub struct Point {
     /// The place on each axis, from 0 to 1.
     pub row: Vec<f64>,
-    /// Which parameters are used.
+    /// The parameters that are used.
     pub used: Vec<bool>,
 }
 
@@ -59,7 +59,7 @@ impl Point {
 
 /// Levels that were told, and which parameters were used with them.
 #[derive(Clone, Debug, PartialEq)]
-struct Told {
+struct Usage {
     levels: Vec<Option<usize>>,
     used: Vec<bool>,
 }
@@ -71,7 +71,7 @@ pub struct Space {
     /// The parameters that depend on each, directly or not.
     dependents: Vec<Vec<usize>>,
     learnt: Vec<bool>,
-    told: Vec<Told>,
+    usages: Vec<Usage>,
 }
 
 /// The most different sets of levels that are remembered for parameters with unknown conditions.
@@ -113,7 +113,7 @@ impl Space {
             }
         }
         let learnt = vec![false; axes.len()];
-        Ok(Space { axes, dependents, learnt, told: vec![] })
+        Ok(Space { axes, dependents, learnt, usages: vec![] })
     }
 
     /// The parameters.
@@ -217,9 +217,9 @@ impl Space {
     /// Sets parameters with unknown conditions to unused, as they were with the most similar levels that were told.
     fn apply_learnt(&self, point: &mut Point) {
         let levels = self.structure(point);
-        let differing = |told: &&Told| told.levels.iter().zip(&levels).filter(|(a, b)| a != b).count();
+        let differing = |usage: &&Usage| usage.levels.iter().zip(&levels).filter(|(a, b)| a != b).count();
         // Of equally similar ones the latest.
-        let Some(nearest) = self.told.iter().rev().min_by_key(differing) else { return };
+        let Some(nearest) = self.usages.iter().rev().min_by_key(differing) else { return };
         for axis in 0..self.len() {
             if self.learnt[axis] && !nearest.used[axis] {
                 point.used[axis] = false;
@@ -229,15 +229,15 @@ impl Space {
     }
 
     /// Stores which parameters an evaluation used.
-    pub fn learn(&mut self, asked: &Point, used: &[bool]) {
+    pub fn learn(&mut self, point: &Point, used: &[bool]) {
         for (axis, is_used) in used.iter().enumerate() {
-            self.learnt[axis] |= asked.used[axis] && !is_used;
+            self.learnt[axis] |= point.used[axis] && !is_used;
         }
-        let told = Told { levels: self.structure(asked), used: used.to_vec() };
-        self.told.retain(|other| other.levels != told.levels);
-        self.told.push(told);
-        if self.told.len() > MEMORY {
-            self.told.remove(0);
+        let usage = Usage { levels: self.structure(point), used: used.to_vec() };
+        self.usages.retain(|other| other.levels != usage.levels);
+        self.usages.push(usage);
+        if self.usages.len() > MEMORY {
+            self.usages.remove(0);
         }
     }
 }

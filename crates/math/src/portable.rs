@@ -63,8 +63,8 @@ mod tests {
     fn falling_powers_agree_with_the_standard_library() {
         for k in 0..70_000 {
             let x = -0.01 * f64::from(k);
-            let (found, expected) = (exp_falling(x), x.exp());
-            assert!((found / expected - 1.0).abs() < 1e-15, "{x}: {found} {expected}");
+            let (value, expected) = (exp_falling(x), x.exp());
+            assert!((value / expected - 1.0).abs() < 1e-15, "{x}: {value} {expected}");
         }
         assert_eq!(exp_falling(0.0), 1.0);
         assert_eq!(exp_falling(-1e300), exp_falling(-700.0));

@@ -7,7 +7,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 /// The row of a point in the unit cube, and which parameters it uses.
-type Asked = (Vec<f64>, Vec<bool>);
+type Row = (Vec<f64>, Vec<bool>);
 
 /// Search for the parameters of a model by an emulator of what its geometry does.
 #[pyclass(name = "Proposer", module = "niwaki._engine")]
@@ -17,7 +17,7 @@ pub struct PyProposer {
     informed: Option<(Proposer, Emulator)>,
 }
 
-fn asked(point: Point) -> Asked {
+fn row_of(point: Point) -> Row {
     (point.row, point.used)
 }
 
@@ -40,9 +40,9 @@ impl PyProposer {
     }
 
     /// The next point, or None if it depends on a point that is not told yet.
-    fn ask(&mut self, py: Python<'_>) -> Option<Asked> {
+    fn ask(&mut self, py: Python<'_>) -> Option<Row> {
         let proposer = &mut self.proposer;
-        py.detach(|| proposer.ask()).map(asked)
+        py.detach(|| proposer.ask()).map(row_of)
     }
 
     /// Stores the score and the features of the first point that is not told yet; no features for a failure. ``used`` says
@@ -69,9 +69,9 @@ impl PyProposer {
     }
 
     /// The canonical form of the point at a ``row``.
-    fn snap(&self, row: Vec<f64>) -> PyResult<Asked> {
+    fn snap(&self, row: Vec<f64>) -> PyResult<Row> {
         self.check(row.len())?;
-        Ok(asked(self.proposer.space().snap(&row)))
+        Ok(row_of(self.proposer.space().snap(&row)))
     }
 
     /// Length scales of each parameter: along its range, and between different levels.

@@ -1,3 +1,4 @@
+from . import effects as effects
 from .answers import Answer as Answer
 from .answers import Answers as Answers
 from .answers import Effect as Effect

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from niwaki import fitting
 from niwaki.errors import InputError
 from niwaki.errors.extras import optional
 from niwaki.errors.files import write_whole
@@ -132,7 +133,7 @@ class Interval:
 
 @dataclass(frozen=True)
 class Effect:
-    """What a parameter moves.
+    """The effect of a parameter: what it moves.
 
     Attributes
     ----------
@@ -203,7 +204,7 @@ class Answers(Sequence[Answer]):
             A file to write, too: .csv or .parquet.
         """
         numbers = sorted({name for answer in self._seen for name in answer.numbers})
-        taken = {"number", *self.space.names, "log_score", "covered", "outside", "iou", "failure"}
+        columns = {"number", *self.space.names, "log_score", "covered", "outside", "iou", "failure"}
         by_number = {answer.number: answer for answer in self._seen}
         rows = []
         for point, outcome in zip(self._loop.points, self._loop.outcomes, strict=False):
@@ -215,7 +216,7 @@ class Answers(Sequence[Answer]):
             row |= {
                 name: None if answer is None else answer.numbers.get(name)
                 for name in numbers
-                if name not in taken
+                if name not in columns
             }
             row["failure"] = None if isinstance(outcome, Outcome) else outcome.text
             rows.append(row)
@@ -288,9 +289,9 @@ class Answers(Sequence[Answer]):
         shares = dict.fromkeys(axis.values, 0.0)
         for place in places:
             shares[axis.value(float(place))] += 1.0 / len(places)
-        told = max(shares.values(), default=0.0) > 1.0 / max(len(shares), 1) + 0.1
-        told = told and self._tells(number)
-        return Interval(name, share, None, None, shares, probability, told, power, covered)
+        is_certain = max(shares.values(), default=0.0) > 1.0 / max(len(shares), 1) + 0.1
+        is_told = is_certain and self._tells(number)
+        return Interval(name, share, None, None, shares, probability, is_told, power, covered)
 
     def _tells(self, number: int) -> bool:
         """Whether some value of a parameter makes the best evaluation worse by more than the emulator doubts."""
@@ -343,9 +344,7 @@ class Answers(Sequence[Answer]):
 
     def picture(self, size: int = 160) -> Image:
         """Draw the sensitivity: for each parameter a bar, and the parts that it moves, seen from the front."""
-        from niwaki.fitting.effects import drawn
-
-        return drawn(self.sensitivity(), size)
+        return fitting.effects.drawn(self.sensitivity(), size)
 
     def _kind(self, answer: Answer) -> tuple[Any, ...]:
         return tuple(answer.parameters.get(axis.name, ...) for axis in self.space.axes if axis.range is None)

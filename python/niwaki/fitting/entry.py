@@ -181,7 +181,7 @@ def fit(
             return FitResult(
                 generator,
                 search.loop,
-                [archive.entries[number] for number in range(search.loop.told)],
+                [archive.entries[number] for number in range(search.loop.evaluated)],
                 interrupted=search.interrupted,
                 seconds=time.monotonic() - start_time,
                 spread=search.spread,
@@ -265,19 +265,19 @@ class _Search:
         started = time.monotonic()
         stored = len(self.archive.entries)
         try:
-            while self.loop.told < evaluations and time.monotonic() - started < budget:
-                points = self.loop.ask(min(BATCH, evaluations - self.loop.told))
+            while self.loop.evaluated < evaluations and time.monotonic() - started < budget:
+                points = self.loop.ask(min(BATCH, evaluations - self.loop.evaluated))
                 if not points:
                     # All points of the space are known.
                     break
                 self._evaluate(points)
                 self._repeat([point.number for point in points if point.number % REPEATED == REPEATED - 1])
-                if progress is not None and self.loop.told > stored:
+                if progress is not None and self.loop.evaluated > stored:
                     progress(self._progress(evaluations, started, stored))
             if len(self.loop.answers):
                 self._repeat([self.loop.best.number])
         except KeyboardInterrupt:
-            if not self.loop.told:
+            if not self.loop.evaluated:
                 raise
             self.interrupted = True
 
@@ -366,7 +366,7 @@ class _Search:
 
     def _progress(self, evaluations: int, started: float, stored: int) -> FitProgress:
         scores = [outcome.score for outcome in self.loop.outcomes if isinstance(outcome, Outcome)]
-        done, each = self.loop.told, (time.monotonic() - started) / max(self.loop.told - stored, 1)
+        done, each = self.loop.evaluated, (time.monotonic() - started) / max(self.loop.evaluated - stored, 1)
         failed = done - len(scores)
         left = each * (evaluations - done)
         return FitProgress(
@@ -375,7 +375,7 @@ class _Search:
 
     def warn(self) -> None:
         """Warn about meshes with defects, a function that is not deterministic, and a target of another size."""
-        entries = [self.archive.entries[number] for number in range(self.loop.told)]
+        entries = [self.archive.entries[number] for number in range(self.loop.evaluated)]
         meshes = [entry for entry in entries if isinstance(entry.outcome, Outcome)]
         texts = [_defects(meshes)]
         repeats = [repeat for repeat in self.archive.repeats.values() if not repeat.is_equal]
@@ -391,7 +391,7 @@ class _Search:
             if best.mesh:
                 scene = scene_of_arrays(*best.arrays)
                 texts += [size_warning(target, scene), _far(target, scene)] if len(scene) else []
-        if self.loop.told and not self.goal.has_features:
+        if self.loop.evaluated and not self.goal.has_features:
             texts.append(
                 f"the goal has nothing but its score to learn from ({', '.join(self.goal.without)}): the search needs "
                 "many more evaluations than with a volume, an image or numbers"

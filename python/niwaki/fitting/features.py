@@ -1,4 +1,4 @@
-"""What a scene gets wrong, as a vector: the differences between a scene and its target that an emulator can learn.
+"""The errors of a scene, as a vector: the differences between a scene and its target that an emulator can learn.
 
 A score is one number of a scene. The differences are hundreds: cells of the target's grid summed in blocks, slices and
 silhouettes; pixels in blocks; lengths outside of a box; numbers in units of their tolerance. A scene that matches has
@@ -36,7 +36,7 @@ FARTHEST = 200.0
 
 
 class Differences(Protocol):
-    """What a scene gets wrong about one sketch."""
+    """The errors of a scene by one sketch."""
 
     def __call__(self, shapes: Sequence[_engine.Shape], scene: Scene) -> NDArray[np.float64]:
         """Return the differences, (n,) float64; n is the same for all scenes."""
@@ -45,23 +45,23 @@ class Differences(Protocol):
 
 def differences(score: Score) -> tuple[list[Differences], list[str]]:
     """Return the differences of the sketches of a score, and the names of sketches that have none."""
-    found: list[Differences] = []
+    parts: list[Differences] = []
     without: list[str] = []
     views = iter(score.views)
     for call in score.asks:
         view = next(views) if call.function in VIEWED else None
         make = MAKERS.get(call.function)
         if make is not None:
-            found.append(make(call, view))
+            parts.append(make(call, view))
             continue
         without.append(call.function)
         if _engine.SKETCHES[call.function] is None:
-            found.append(ScoreDifference(call))
-    return found, without
+            parts.append(ScoreDifference(call))
+    return parts, without
 
 
 class ScoreDifference:
-    """The one difference of a sketch that has no others: how far its similarity is from 1, in standard deviations."""
+    """The one difference of a sketch that has no across: how far its similarity is from 1, in standard deviations."""
 
     def __init__(self, call: SketchCall, _: View | None = None) -> None:
         self.spec, self.sigma = call.spec, float(call.arguments["sigma"])
@@ -106,13 +106,13 @@ class VolumeDifferences:
         out = [BLOCK * blocks.ravel()]
         for axis in range(3):
             along = filled.sum(axis)
-            others = [k for k in range(3) if k != axis]
+            across = [k for k in range(3) if k != axis]
             # The slices of two axes are sums of this silhouette.
             if axis != 2:
                 out.append(SLICE * along.sum(0 if axis == 0 else 1))
             if axis == 1:
                 out.append(SLICE * along.sum(0))
-            for place, other in enumerate(others):
+            for place, other in enumerate(across):
                 along = np.add.reduceat(along, self.pairs[other], axis=place)
             out.append(SHADOW * along.ravel())
         return np.concatenate(out).astype(np.float64)

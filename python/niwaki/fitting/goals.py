@@ -91,7 +91,7 @@ def number(
 
 @dataclass(frozen=True)
 class Outcome:
-    """What an evaluation gave: all that a search needs of it, small enough to be sent and stored.
+    """An outcome of an evaluation: all that a search needs of it, small enough to be sent and stored.
 
     Attributes
     ----------
@@ -137,8 +137,8 @@ class Goal:
     without: tuple[str, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        found, without = differences(self.score)
-        object.__setattr__(self, "parts", found)
+        parts, without = differences(self.score)
+        object.__setattr__(self, "parts", parts)
         object.__setattr__(self, "without", tuple(without))
 
     def __reduce__(self) -> Any:
@@ -194,10 +194,10 @@ class Goal:
         score, measures = log_score(self.score, scene) if self.score.asks else (0.0, {})
         shapes = [shape for part in scene.parts for shape in part.shapes]
         parts = [part(shapes, scene) for part in self.parts]
-        found: dict[str, float] = {}
+        values: dict[str, float] = {}
         for wish in self.numbers:
-            found[wish.name] = wish.of(scene, numbers or {})
-            off = (found[wish.name] - wish.value) / wish.tolerance
+            values[wish.name] = wish.of(scene, numbers or {})
+            off = (values[wish.name] - wish.value) / wish.tolerance
             if not isfinite(off):
                 off = FARTHEST
             score -= 0.5 * off * off + log(wish.tolerance) + 0.5 * log(2.0 * pi)
@@ -209,7 +209,7 @@ class Goal:
             vector.astype(np.float32),
             None if shares is None else shares.covered,
             None if shares is None else shares.outside,
-            {**measures, **found},
+            {**measures, **values},
         )
 
 
@@ -230,30 +230,30 @@ def measured(scene: Scene, name: str) -> float:
     return total
 
 
-def scene_of(found: Any) -> Scene:
+def scene_of(mesh: Any) -> Scene:
     """Return the scene of what an evaluation gave: a scene, a shape or shapes, a mesh, or vertices and faces.
 
     A mesh is an object with `vertices` and `faces`. None and a mesh without triangles are the empty scene.
     """
-    if isinstance(found, Scene):
-        return found
-    if found is None:
+    if isinstance(mesh, Scene):
+        return mesh
+    if mesh is None:
         return Scene([])
-    if isinstance(found, _engine.Shape):
-        return Scene([("part", [found])])
-    if hasattr(found, "vertices") and hasattr(found, "faces") and not callable(found.vertices):
-        found = (found.vertices, found.faces)
-    if isinstance(found, (list, tuple)) and all(isinstance(item, _engine.Shape) for item in found):
-        return Scene([("part", list(found))] if found else [])
-    if isinstance(found, tuple) and len(found) == 2:
-        vertices = np.ascontiguousarray(np.asarray(found[0], dtype=np.float64)).reshape(-1, 3)
-        faces = np.ascontiguousarray(np.asarray(found[1], dtype=np.int64)).reshape(-1, 3)
+    if isinstance(mesh, _engine.Shape):
+        return Scene([("part", [mesh])])
+    if hasattr(mesh, "vertices") and hasattr(mesh, "faces") and not callable(mesh.vertices):
+        mesh = (mesh.vertices, mesh.faces)
+    if isinstance(mesh, (list, tuple)) and all(isinstance(item, _engine.Shape) for item in mesh):
+        return Scene([("part", list(mesh))] if mesh else [])
+    if isinstance(mesh, tuple) and len(mesh) == 2:
+        vertices = np.ascontiguousarray(np.asarray(mesh[0], dtype=np.float64)).reshape(-1, 3)
+        faces = np.ascontiguousarray(np.asarray(mesh[1], dtype=np.int64)).reshape(-1, 3)
         if not len(faces):
             return Scene([])
         return Scene([("part", [_engine.shape("mesh", vertices, faces)])])
     raise bad(
         "what the model returned",
-        shown(found),
+        shown(mesh),
         "a scene, shapes, a mesh with `vertices` and `faces`, or a pair of these arrays",
         "a mesh",
     )

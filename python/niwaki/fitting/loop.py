@@ -1,7 +1,7 @@
 """The loop of a fit: `ask` for points, evaluate them anywhere, and `tell` what came of them.
 
     loop = nw.FitLoop({"width": nw.Uniform(20, 80), "holes": nw.DiscreteUniform(0, 6)}, nw.match_volume("bracket.stl"))
-    while loop.told < 300:
+    while loop.evaluated < 300:
         for point in loop.ask():
             loop.tell(point, bracket(**point.parameters))
     loop.best.parameters
@@ -12,7 +12,7 @@ Which point comes next depends on the outcomes of earlier points in the order of
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -85,17 +85,18 @@ class FitLoop:
         self.points: list[Point] = []
         self.outcomes: list[Outcome | Failure] = []
         self._early: dict[int, Outcome | Failure] = {}
+        self._used: dict[int, list[bool]] = {}
         self._answers: tuple[int, Answers] | None = None
 
     @property
-    def told(self) -> int:
+    def evaluated(self) -> int:
         """The number of points that are told, with all points before them."""
         return len(self.outcomes)
 
     @property
     def pending(self) -> list[Point]:
         """The points that were asked for and are not told yet."""
-        return [point for point in self.points[self.told :] if point.number not in self._early]
+        return [point for point in self.points[self.evaluated :] if point.number not in self._early]
 
     def ask(self, count: int = 1) -> list[Point]:
         """Return the next points.
@@ -119,7 +120,11 @@ class FitLoop:
         return out
 
     def tell(
-        self, point: Point | int, found: Any, numbers: Mapping[str, float] | None = None
+        self,
+        point: Point | int,
+        scene: Any,
+        numbers: Mapping[str, float] | None = None,
+        used: Collection[str] | None = None,
     ) -> Outcome | Failure:
         """Store what came of a point.
 
@@ -127,10 +132,13 @@ class FitLoop:
         ----------
         point
             The point, or its number.
-        found
+        scene
             A scene, shapes, a mesh or a pair (vertices, faces); an `Outcome` that was measured elsewhere; a `Failure`.
         numbers
             Numbers that the goal scores and the scene does not show, by name.
+        used
+            The names of the parameters that the evaluation used, for models without known conditions: the search
+            learns when each of them is used. None: those of the point.
 
         Returns
         -------
@@ -138,23 +146,27 @@ class FitLoop:
             What is stored.
         """
         number = point.number if isinstance(point, Point) else point
-        if not 0 <= number < len(self.points) or number < self.told or number in self._early:
+        if not 0 <= number < len(self.points) or number < self.evaluated or number in self._early:
             raise bad(
                 "point", number, "the number of a pending point", "a point of `ask` that is not told yet"
             )
+        for name in used or ():
+            self.space.axis(name)
         outcome = (
-            found if isinstance(found, (Outcome, Failure)) else self.goal.measure(scene_of(found), numbers)
+            scene if isinstance(scene, (Outcome, Failure)) else self.goal.measure(scene_of(scene), numbers)
         )
         self._early[number] = outcome
-        while self.told in self._early:
-            self._push(self._early.pop(self.told))
+        if used is not None:
+            self._used[number] = [name in used for name in self.space.names]
+        while self.evaluated in self._early:
+            self._push(self._early.pop(self.evaluated))
         return outcome
 
     @property
     def answers(self) -> Answers:
         """The answers of the evaluations so far."""
-        if self._answers is None or self._answers[0] != self.told:
-            self._answers = (self.told, Answers(self))
+        if self._answers is None or self._answers[0] != self.evaluated:
+            self._answers = (self.evaluated, Answers(self))
         return self._answers[1]
 
     @property
@@ -163,8 +175,9 @@ class FitLoop:
         return self.answers.best
 
     def _push(self, outcome: Outcome | Failure) -> None:
+        used = self._used.pop(self.evaluated, None)
         self.outcomes.append(outcome)
         if isinstance(outcome, Failure):
-            self.proposer.tell(float("-inf"), None)
+            self.proposer.tell(float("-inf"), None, used)
         else:
-            self.proposer.tell(outcome.score, outcome.features)
+            self.proposer.tell(outcome.score, outcome.features, used)

@@ -146,8 +146,8 @@ class Space:
         if not parameters:
             raise wrong("parameters", {}, "at least one parameter")
         self.axes: tuple[Axis, ...] = ()
-        for name, given in parameters.items():
-            self.axes += (self._axis(str(name), given),)
+        for name, range in parameters.items():
+            self.axes += (self._axis(str(name), range),)
 
     @classmethod
     def of(cls, parameters: Space | Mapping[str, Any]) -> Space:
@@ -206,8 +206,8 @@ class Space:
             for axis in self.axes
         ]
 
-    def _axis(self, name: str, given: Any) -> Axis:
-        parameter = given if isinstance(given, Parameter) else Parameter(given)
+    def _axis(self, name: str, value: Any) -> Axis:
+        parameter = value if isinstance(value, Parameter) else Parameter(value)
         when = self._when(name, parameter.when)
         weights: tuple[float, ...] | None = None
         match parameter.range:
@@ -265,12 +265,12 @@ class Space:
         return tuple(out)
 
 
-def wrong(name: str, found: Any, expected: str) -> InputError:
+def wrong(name: str, value: Any, expected: str) -> InputError:
     """Return the error about a parameter's range or value."""
     return InputError(
         "bad-setting",
         name=name,
-        found=shown(found),
+        found=shown(value),
         expected=expected,
         suggestion="`Uniform(20, 80)`, for instance" if expected == EXPECTED else "such a value",
     )

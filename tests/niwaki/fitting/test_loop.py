@@ -61,7 +61,7 @@ def goal() -> Goal:
 
 
 def run(loop: FitLoop, count: int) -> FitLoop:
-    while loop.told < count:
+    while loop.evaluated < count:
         for point in loop.ask(4):
             loop.tell(point, built(point.parameters))
     return loop
@@ -87,7 +87,7 @@ def test_hidden_parameters_are_found(searched: FitLoop):
 def test_told_in_any_order_by_anybody_the_search_is_the_same(goal: Goal, searched: FitLoop):
     loop = FitLoop(SPACE, goal, seed=1)
     rng = np.random.default_rng(0)
-    while loop.told < 60:
+    while loop.evaluated < 60:
         loop.ask(5)
         point = loop.pending[int(rng.integers(len(loop.pending)))]
         # An outcome that was measured in another process.
@@ -111,7 +111,7 @@ def test_the_table_has_a_row_for_each_evaluation(goal: Goal, tmp_path: Path):
     loop = FitLoop(SPACE, goal)
     first, second = loop.ask(2)
     loop.tell(second, Failure("the knob is too thin"))
-    assert loop.told == 0
+    assert loop.evaluated == 0
     loop.tell(first, built(first.parameters))
     rows = loop.answers.table(tmp_path / "table.csv")
     assert [row["number"] for row in rows] == [0, 1]
@@ -196,9 +196,9 @@ def test_goals_of_every_kind_have_differences():
     ]
     scene = Scene([("part", built(HIDDEN))])
     for score in scores:
-        found = Goal.of(score).measure(scene)
-        assert len(found.features) and np.abs(found.features).max() > 0, score
-        assert len(Goal.of(score).measure(Scene([])).features) == len(found.features)
+        outcome = Goal.of(score).measure(scene)
+        assert len(outcome.features) and np.abs(outcome.features).max() > 0, score
+        assert len(Goal.of(score).measure(Scene([])).features) == len(outcome.features)
     assert [Goal.of(score).without for score in scores] == [()] * 7 + [("fill_drawing",)]
     product = Goal.of(scores[0] * scores[2]) * number("height", 2.0, 0.1)
     assert len(product.measure(scene).features) == sum(product.sizes) + 1
@@ -230,7 +230,7 @@ def test_numbers_are_scored_by_their_tolerance():
 
 def test_a_loop_finds_a_number_alone():
     loop = FitLoop({"r": Uniform(0.1, 3), "h": Uniform(0.1, 3)}, number("volume", 4.0, 0.01))
-    while loop.told < 40:
+    while loop.evaluated < 40:
         for point in loop.ask():
             loop.tell(point, nw.box((0, 0, 0), (point.parameters["r"], point.parameters["h"], 1)))
     assert abs(loop.best.numbers["volume"] - 4.0) < 0.02
@@ -285,3 +285,16 @@ def test_what_is_no_scene_is_refused(goal: Goal):
     with pytest.raises(InputError, match="vertices"):
         loop.tell(point, "a chair")
     assert isinstance(loop.tell(point, None), Outcome)
+
+
+def test_a_model_without_conditions_tells_what_it_used(goal: Goal):
+    flat = {name: value.range if isinstance(value, Parameter) else value for name, value in SPACE.items()}
+    loop = FitLoop(flat, goal, seed=1)
+    wasted = []
+    while loop.evaluated < 100:
+        for point in loop.ask():
+            used = [name for name in SPACE if name != "knob_height" or point.parameters["knob"]]
+            wasted.append(set(used) != set(point.parameters))
+            loop.tell(point, built({"knob_height": 0.5, **point.parameters}), used=used)
+    assert sum(wasted[:10]) >= 3 and sum(wasted[50:]) <= 5
+    assert loop.best.log_score > 5.5
