@@ -1,4 +1,4 @@
-"""Claim: `niwaki fit` fits a function of a file to a mesh or an image, goes on where it stopped, and says what is wrong."""
+"""Claim: `niwaki fit` fits a function of a file to a mesh or an image, and goes on where it stopped."""
 
 from __future__ import annotations
 
@@ -69,7 +69,18 @@ def test_a_fit_writes_its_folder_and_goes_on(place: Path) -> None:
 
 
 def test_an_image_without_a_camera_is_seen_from_the_front(place: Path) -> None:
-    done = run("slab.py:slab", "--match-image", "photo.png", "--workers", "1", "--evaluations", "16", "--seed", "2", "--json")
+    done = run(
+        "slab.py:slab",
+        "--match-image",
+        "photo.png",
+        "--workers",
+        "1",
+        "--evaluations",
+        "16",
+        "--seed",
+        "2",
+        "--json",
+    )
     assert done.exit_code == 0, (done.output, done.exception)
     # The middle of the heights is as high as the silhouette, which shows 1.5 by 1.2.
     found = json.loads(done.output)["best"]["parameters"]
