@@ -62,7 +62,7 @@ def test_a_fit_writes_its_folder_and_goes_on(place: Path) -> None:
     assert names == {"archive.fit", "fit.json", "table.csv", "best.glb", "best.png", "sheet.png"}
     again = run(*words, "--evaluations", "20", "--json", "-o", folder)
     assert json.loads(again.output)["evaluations"] == 20
-    rows = list(csv.DictReader((folder / "table.csv").open()))
+    rows = list(csv.DictReader((folder / "table.csv").read_text().splitlines()))
     assert len(rows) == 20 and {"width", "height", "log_score", "failure", "seconds"} <= set(rows[0])
     best = json.loads((folder / "fit.json").read_text())["best"]
     assert best["log_score"] == max(float(row["log_score"]) for row in rows if row["log_score"])
@@ -83,8 +83,8 @@ def test_an_image_without_a_camera_is_seen_from_the_front(place: Path) -> None:
     )
     assert done.exit_code == 0, (done.output, done.exception)
     # The middle of the heights is as high as the silhouette, which shows 1.5 by 1.2.
-    found = json.loads(done.output)["best"]["parameters"]
-    assert found["width"] / found["height"] == pytest.approx(1.5 / 1.2, rel=0.3)
+    best = json.loads(done.output)["best"]["parameters"]
+    assert best["width"] / best["height"] == pytest.approx(1.5 / 1.2, rel=0.3)
     assert not (place / "slab-fit").exists()
 
 
