@@ -20,6 +20,8 @@
 #   make bench-sketches  what a primitive costs in each sketch, beside loops by hand, parry3d and trimesh (three minutes)
 #   make bench-drag  random drags of parts of five gallery models: how many arrive, why not, how soon
 #   make bench-searches  the default search and others at equal CPU on many kinds of problems (QUICK=1: ten minutes)
+#   make bench-fit  hidden parameters of sixteen generators, sought by optimisers with as many evaluations (hours; SEEDS=1
+#                 BUDGET=300: one)
 #   make bench-batch  a thousand searches, killed ten times: their bytes, and the CPU beyond the searches (2 minutes)
 #   make studio-page  bundle the studio's page again, into python/niwaki/studio/page (needs node and npm)
 #   make test-studio  the studio in a browser: its journeys, their times, screenshots in out/studio (needs Chromium)
@@ -75,7 +77,7 @@ PYTHONS :=
 MINUTES := 10
 JOBS := 1
 
-.PHONY: all demo guides test test-binaries lint-rust lint-python studio-page test-studio studio-pictures blender test-blender blender-pictures lint counts recorded bench bench-c3 bench-hmc bench-vi bench-wait bench-sketches bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean imports words
+.PHONY: all demo guides test test-binaries lint-rust lint-python studio-page test-studio studio-pictures blender test-blender blender-pictures lint counts recorded bench bench-c3 bench-hmc bench-vi bench-wait bench-sketches bench-drag bench-searches bench-fit bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean imports words
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -214,6 +216,9 @@ bench-drag: $(STAMPS)/engine
 bench-searches: $(STAMPS)/engine
 	$(PY) benches/board.py
 
+bench-fit: $(STAMPS)/engine $(STAMPS)/bench-fit
+	$(PY) benches/black_boxes.py
+
 bench-batch: $(STAMPS)/engine
 	$(PY) benches/batch.py
 
@@ -285,7 +290,7 @@ format: $(STAMPS)/lint
 # uv writes locks that hold on Python 3.11 and later, with hashes and without the address of an index.
 locks: $(STAMPS)/venv
 	$(PIP) install uv
-	for extra in core build studio test browser lint docs bench bench-hmc cluster guides-oracle; do \
+	for extra in core build studio test browser lint docs bench bench-fit bench-hmc cluster guides-oracle; do \
 	  $(VENV)/bin/uv pip compile pyproject.toml $$([ $$extra = core ] || echo --extra $$extra -c requirements/core.txt) \
 	    --upgrade --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --no-annotate \
 	    --quiet -o requirements/$$extra.txt; \

@@ -1,6 +1,7 @@
 from . import batches as batches
 from . import draw as draw
 from . import errors as errors
+from . import fitting as fitting
 from . import gallery as gallery
 from . import guides as guides
 from . import methods as methods
@@ -14,6 +15,13 @@ from .errors import InputError as InputError
 from .errors import ModelError as ModelError
 from .errors import ModelFault as ModelFault
 from .errors import NiwakiError as NiwakiError
+from .fitting import Failure as Failure
+from .fitting import FitLoop as FitLoop
+from .fitting import Parameter as Parameter
+from .fitting import command as command
+from .fitting import fit as fit
+from .fitting import number as number
+from .fitting import scad as scad
 from .guides import train_guide as train_guide
 from .lang.marks import host as host
 from .lang.models import Model as Model
@@ -58,6 +66,9 @@ from .targets.sketches import no_self_intersection as no_self_intersection
 from .targets.sketches import overshoot as overshoot
 from .targets.target import Receiver as Receiver
 from .targets.target import Target as Target
+from .words import Bernoulli as Bernoulli
+from .words import DiscreteUniform as DiscreteUniform
+from .words import Uniform as Uniform
 from .words import arch as arch
 from .words import arrayed as arrayed
 from .words import beta as beta

@@ -126,10 +126,12 @@ def test_every_python_file_opens_with_what_it_is_for():
 #: Imports inside functions: `resource` is not on every system.
 OPTIONAL = {("errors/memory.py", "resource")}
 #: Who imports modules by a name of their own: a look at parts that may be broken, extras, the gallery's folder, the
-#: shell's commands, the host functions of a search that was read.
+#: shell's commands, the host functions of a search that was read, a generator in a worker process.
 BY_NAME = {
     "checkup/inspection.py",
     "errors/extras.py",
+    "fitting/functions.py",
+    "fitting/openscad.py",
     "gallery/__init__.py",
     "inputs/child.py",
     "search/data.py",
@@ -172,7 +174,7 @@ def test_help_names_only_what_there_is():
 
 
 def test_crates_import_only_the_rooms_above_them():
-    crates = ["math", "geom", "render", "native", "vm", "grad", "guide", "continuous", "run"]
+    crates = ["math", "geom", "render", "native", "vm", "grad", "guide", "continuous", "fit", "run"]
     crates += ["propose", "chain", "agreement", "particles", "search", "py"]
     assert set(crates) == {manifest.parent.name for manifest in (ROOT / "crates").glob("*/Cargo.toml")}
     for place, crate in enumerate(crates):

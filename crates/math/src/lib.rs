@@ -6,6 +6,7 @@
 //! | [`vector`] | points, directions and rotations of three dimensions |
 //! | [`color`] | sRGB, HSV and CIELAB, and how different two colours look |
 //! | [`polygon`] | simple polygons of the plane |
+//! | [`portable`] | elementary functions with the same bits on every machine |
 //! | [`streams`] | random bits as a function of seed, stream, address and visit |
 //! | [`first_blocks`] | the first bits of many streams, made together |
 //! | [`rounding`] | the grid on which log scores are added and subtracted exactly |
@@ -26,6 +27,7 @@ pub mod fingerprint;
 pub mod first_blocks;
 pub mod log_sums;
 pub mod polygon;
+pub mod portable;
 pub mod rounding;
 pub mod scalar;
 pub mod special;

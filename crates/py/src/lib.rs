@@ -6,6 +6,7 @@
 //! * `model`: compiled models; `hosts`: the Python that they call; `search`: algorithms; `chains`: Markov chains;
 //!   `runs`: finished runs; `gradients`: log densities with gradients; `positions`: places of shapes with derivatives;
 //!   `trajectories`: chains that follow a gradient; `normals`: normals near a distribution;
+//!   `fits`: proposers of points for models of somebody else;
 //!   `networks`: networks of guides, for a comparison with other software;
 //! * `machine`: abilities of this machine; `threads`: the pools of threads;
 //!   `shared`: values that several threads of Python use;
@@ -18,6 +19,7 @@ mod chains;
 mod checkpoints;
 mod distributions;
 mod faults;
+mod fits;
 mod forks;
 mod geometry;
 mod gradients;
@@ -57,6 +59,7 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     views::register(module)?;
     values::register(module)?;
     faults::register(module)?;
+    fits::register(module)?;
     model::register(module)?;
     networks::register(module)?;
     normals::register(module)?;

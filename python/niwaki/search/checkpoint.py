@@ -183,11 +183,14 @@ def open_file(path: Path, kind: str, about: Mapping[str, Any]) -> Stored:
         raise InputError(
             "bad-checkpoint", detail=f"`{path}`: it is the checkpoint of a {stored.kind}, not of a {kind}"
         )
-    names = [name for name in settings if stored.about.get(name) != settings[name]]
-    if names:
-        differences = "; ".join(_difference(name, stored.about.get(name), settings[name]) for name in names)
-        raise InputError("other-checkpoint", path=path, kind=kind, differences=differences)
+    if texts := differences(stored.about, settings):
+        raise InputError("other-checkpoint", path=path, kind=kind, differences="; ".join(texts))
     return stored
+
+
+def differences(then: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
+    """The differences between stored settings and those of now, in words."""
+    return [_difference(name, then.get(name), now[name]) for name in now if then.get(name) != now[name]]
 
 
 def _difference(name: str, then: Any, now: Any) -> str:

@@ -27,7 +27,7 @@ def check_best(task: _engine.Task, score: Score, best: Sample) -> None:
     """Warn if the best sample is no better than an empty scene, differs from its target in size, or is far from it."""
     texts = [_gain(task, best)]
     if score.target is not None and best.primitives:
-        texts += [_size(score.target, best.scene), _distance(score.target, best)]
+        texts += [size_warning(score.target, best.scene), _distance(score.target, best)]
     for text in filter(None, texts):
         warn(text, SearchWarning)
 
@@ -90,7 +90,8 @@ def _gain(task: _engine.Task, best: Sample) -> str:
     )
 
 
-def _size(target: Target, scene: Scene) -> str:
+def size_warning(target: Target, scene: Scene) -> str:
+    """Return a warning about a scene and a target in different units, or nothing."""
     length, goal = float(scene.size.max()), float(target.size.max())
     times = times_as_large(length, goal)
     if times is None:

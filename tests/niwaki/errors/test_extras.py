@@ -23,7 +23,7 @@ from niwaki.stacks import judges
 from typer.testing import CliRunner
 
 #: Extras for the development of the package.
-INTERNAL = {"bench", "bench-hmc", "browser", "build", "docs", "guides-oracle", "lint", "test"}
+INTERNAL = {"bench", "bench-fit", "bench-hmc", "browser", "build", "docs", "guides-oracle", "lint", "test"}
 
 
 @model

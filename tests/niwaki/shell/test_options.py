@@ -97,7 +97,11 @@ FLAGS = {
     "--regrow": ("--regrow", "N", "The number of particles that grow a part again"),
     "--power": ("--power", "NUMBER", "The power of the score"),
     "--rounds": ("--rounds", "N", "The most rounds"),
-    "--seconds": ("--seconds", "SECONDS", "The time after which no round begins"),
+    "--seconds": (
+        "--seconds",
+        "SECONDS",
+        ("The time after which no round begins", "Begin no evaluation after so many seconds."),
+    ),
     "--diverse": ("--diverse", "N", "The number of results that differ"),
     "--order": ("--order", "NAME", '"stochastic"'),
     "--weights": ("--weights", "NAME", '"ratio"'),
@@ -134,6 +138,10 @@ FLAGS = {
     "--objective": ("--objective", "examples|bound|particles", "Examples: learn from the best runs"),
     "--start": ("--start", "FILE", "A guide from which the training starts."),
     "--mirror": ("--mirror/--no-mirror", None, "Also learn from mirrored drawings."),
+    "--evaluations": ("--evaluations", "N", "Evaluations in all, with those of the folder."),
+    "--workers": ("--workers", "N", "Processes that evaluate."),
+    "--limit": ("--limit", "S", "Seconds of one evaluation, until ten are known"),
+    "--align": ("--align", None, "Search the place, turn and size of the mesh, too."),
     "--processes": ("--processes", "N", "Number of worker processes."),
     "--shard": ("--shard", "I/N", "Run only a part of the batch"),
     "--engine": ("--engine", "local|ray|dask", "Engine that runs the searches."),
@@ -154,6 +162,7 @@ WORDS = {
     "SPEC": "A TOML file with the model, the seeds, and the settings that vary.",
     "FOLDER": "The folder of a batch.",
     "FILE": "The file of a guide.",
+    "GENERATOR": "file.py:function, which is run, or an OpenSCAD file",
     "[MODEL.PY]...": "Files of models",
 }
 
@@ -239,10 +248,10 @@ def test_commands_that_write_have_the_same_three(all_commands: dict[str, Any]) -
     }
     assert writing == {
         *("show", "grow", "replay", "sample", "color", "letters", "explain"),
-        *("batch run", "batch export", "guide train"),
+        *("batch run", "batch export", "guide train", "fit"),
     }
-    for name in writing - {"batch run"}:
-        # A batch is gone on with, and never replaced.
+    for name in writing - {"batch run", "fit"}:
+        # A batch and a fit are gone on with, and never replaced.
         assert "--force" in {flag for option in all_commands[name].params for flag in option.opts}, name
 
 

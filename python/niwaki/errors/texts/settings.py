@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from niwaki.errors.texts.batches import BATCHES
+from niwaki.errors.texts.fitting import FITTING
 from niwaki.errors.texts.message import Message
 from niwaki.errors.texts.shell import SHELL
 
 SETTINGS = (
     *SHELL,
     *BATCHES,
+    *FITTING,
     Message(
         "bad-setting",
         "`{name}` cannot be {found}",

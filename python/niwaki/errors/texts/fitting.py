@@ -1,0 +1,66 @@
+"""Errors about models that somebody else wrote: their parameters, their processes, and the archives of their searches."""
+
+from __future__ import annotations
+
+from niwaki.errors.texts.message import Message
+
+FITTING = (
+    Message(
+        "no-ranges",
+        "`{name}` cannot be searched without ranges of its parameters",
+        why="{reason}",
+        help="{cure}",
+        example="def bracket(width, holes=4): ...\nniwaki.fit(bracket, goal)",
+        cure="def bracket(width=niwaki.Uniform(20, 80), holes=niwaki.DiscreteUniform(0, 6)): ...",
+    ),
+    Message(
+        "bad-command",
+        "this command cannot make a mesh: {reason}",
+        why="each evaluation writes the values of the parameters into the words of the command, runs it, and reads the file "
+        "`{{out}}` that it writes",
+        help="{cure}",
+        example='niwaki.command("tool --w {w} -o {out}.stl", w=niwaki.Uniform(20, 80))',
+        cure='niwaki.command(["tool", "--w", "{w}", "-o", "{out}.stl"], w=niwaki.Uniform(20, 80))',
+    ),
+    Message(
+        "no-openscad",
+        "`{name}` cannot be evaluated: there is no OpenSCAD here",
+        why="the parameters are written into the file, and OpenSCAD makes the mesh",
+        help="install the program `openscad`, or the faster library with `pip install openscad-evaluator manifold3d`",
+        example="niwaki fit box.scad --target bracket.stl, on a machine without OpenSCAD",
+        cure="pip install openscad-evaluator manifold3d",
+    ),
+    Message(
+        "all-failed",
+        "the first {count} evaluations of `{name}` all failed",
+        why="the first: {reason}",
+        help="call the model once by hand with parameters in the middle of their ranges; the table of the folder has the text "
+        "of each failure",
+        example="niwaki.fit(bracket, goal), of a function that returns no mesh",
+        cure="def bracket(width=niwaki.Uniform(20, 80)):\n    return trimesh.creation.box((width, 10, 10))",
+    ),
+    Message(
+        "fit-worker-ended",
+        "a worker process cannot load the model: {reason}",
+        why="each worker imports the module of the function, or runs its file up to the call of `fit`",
+        help="run the file alone: `python -i FILE`; a function that is defined inside of another runs in this process",
+        example="niwaki.fit(bracket, goal), where the file of bracket imports a package that is missing",
+        cure="the package installed, or its import inside of the function",
+    ),
+    Message(
+        "other-fit",
+        "the folder `{path}` has the evaluations of another search",
+        why="{differences}; an archive has evaluations of equal searches only",
+        help="name another folder; or undo the change, to go on with this one",
+        example='niwaki.fit(bracket, goal, folder="bracket"), after an edit of the function',
+        cure='niwaki.fit(bracket, goal, folder="bracket-2")',
+    ),
+    Message(
+        "bad-archive",
+        "`{path}` cannot be read as the archive of a fit",
+        why="{reason}",
+        help="restore the file, or name another folder: the same seed gives the same evaluations",
+        example="an archive that was edited by hand",
+        cure='niwaki.fit(bracket, goal, folder="bracket-2")',
+    ),
+)

@@ -1,0 +1,191 @@
+"""`niwaki fit`: the parameters of a model that somebody else wrote, in a folder that the same command continues."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+
+import niwaki as nw
+from niwaki import targets
+from niwaki.draw import picture
+from niwaki.errors import InputError
+from niwaki.errors.files import write_whole
+from niwaki.errors.folders import held_folder
+from niwaki.fitting.fronts import front_camera
+from niwaki.fitting.functions import FunctionGenerator
+from niwaki.fitting.generator import Generator
+from niwaki.fitting.loading import generator_of
+from niwaki.inputs.modules import run_file
+from niwaki.lang.models import Model
+from niwaki.shell import controls, folders, pictures, settings
+from niwaki.shell.app import Json, Seed, app, counted
+from niwaki.shell.progress import duration, status_line
+from niwaki.targets import asks
+
+#: The options of a goal: those of scenes in space.
+OPTIONS = (
+    *("target", "voxel", "sigma", "avoid", "floor", "within"),
+    *("match_image", "match_shadow", "camera", "weight_image", "weight", "light", "receiver"),
+)
+
+ModelFile = Annotated[
+    str,
+    typer.Argument(
+        metavar="GENERATOR", help="file.py:function, which is run, or an OpenSCAD file: box.scad."
+    ),
+]
+
+
+@app.command()
+@settings.with_settings
+def fit(
+    model: ModelFile,
+    options: Annotated[dict[str, Any], controls.flags(*OPTIONS)],
+    evaluations: Annotated[
+        int, typer.Option("--evaluations", metavar="N", help="Evaluations in all, with those of the folder.")
+    ] = 300,
+    seconds: Annotated[
+        float | None,
+        typer.Option("--seconds", metavar="SECONDS", help="Begin no evaluation after so many seconds."),
+    ] = None,
+    workers: Annotated[
+        int | None,
+        typer.Option(
+            "--workers", metavar="N", help="Processes that evaluate. Default: one for each processor."
+        ),
+    ] = None,
+    limit: Annotated[
+        float,
+        typer.Option(
+            "--limit", metavar="S", help="Seconds of one evaluation, until ten are known: then ten medians."
+        ),
+    ] = 60.0,
+    align: Annotated[
+        bool, typer.Option("--align", help="Search the place, turn and size of the mesh, too.")
+    ] = False,
+    seed: Seed = None,
+    output: Annotated[str | None, folders.output("the model's name and -fit")] = None,
+    as_json: Json = False,
+    *,
+    images: pictures.Pictures,
+) -> None:
+    """Fit the parameters of GENERATOR to a target. Writes fit.json, table.csv, best.glb, best.png, sheet.png.
+
+    The same command goes on where it stopped.
+    """
+    generator = generator_named(model)
+    score = goal(generator, options)
+    folder = None if as_json and output is None else Path(output or f"{generator.name}-fit")
+    with status_line(f"fitting {generator.name}") as show:
+        result = nw.fit(
+            generator,
+            score,
+            evaluations,
+            seconds=seconds,
+            workers=workers,
+            folder=folder,
+            seed=seed,
+            limit=limit,
+            align=align,
+            progress=lambda now: show(progress_text(now)),
+        )
+    if folder is not None:
+        with held_folder(folder):
+            _write(result, folder, images)
+    if as_json:
+        print(json.dumps(result.numbers()))
+    else:
+        _summary(result, folder)
+    if result.interrupted:
+        print("stopped: the same command goes on from here", file=sys.stderr)
+        raise typer.Exit(130)
+
+
+def generator_named(reference: str) -> Generator:
+    """Return the generator of `file.py:function` or of an OpenSCAD file.
+
+    Raises
+    ------
+    InputError
+        `unknown-model`.
+    """
+    if reference.lower().endswith(".scad"):
+        return generator_of(reference)
+    place, _, name = reference.rpartition(":") if not reference.endswith(".py") else (reference, "", "")
+    if not place.endswith(".py") or not Path(place).is_file():
+        reason = "write file.py:function, or the path of an OpenSCAD file"
+        if place.endswith(".py"):
+            reason = f"there is no file {Path(place).absolute()}"
+        raise InputError("unknown-model", name=reference, reason=reason)
+    module, _ = run_file(Path(place).resolve())
+    functions = {
+        key: value
+        for key, value in vars(module).items()
+        if callable(value) and getattr(value, "__module__", "") == module.__name__ and not key.startswith("_")
+    }
+    if not name and len(functions) == 1:
+        (name,) = functions
+    if name not in functions:
+        listed = ", ".join(functions) or "no function"
+        raise InputError("unknown-model", name=reference, reason=f"{place} defines {listed}")
+    function = functions[name]
+    if isinstance(function, Model):
+        reason = f"`{name}` is a model of Niwaki's own: `niwaki grow {reference}` searches it"
+        raise InputError("unknown-model", name=reference, reason=reason)
+    return FunctionGenerator(function)
+
+
+def goal(generator: Generator, options: dict[str, Any]) -> nw.Score:
+    """Return the score of the flags; an image without a camera is seen from the front."""
+    values = controls.read(options)
+    if values.get("match_image") is not None and values.get("camera") is None:
+        values["camera"] = front_camera(generator, targets.images.silhouette(values["match_image"]))
+    terms = asks.sketches_of(values, name=generator.name)
+    # One mesh is one part, which intersects nothing.
+    return asks.score([term for term in terms if term[0] != "no_self_intersection"])
+
+
+def progress_text(now: nw.fitting.FitProgress) -> str:
+    """Describe the progress of a fit."""
+    best = f"{now.best:.2f}" if math.isfinite(now.best) else "-"
+    failed = f", {now.failed} failed" if now.failed else ""
+    left = "" if now.seconds_left is None else f", {duration(now.seconds_left)} left"
+    return f"{now.done} of {now.evaluations}{failed}, best {best}, {now.seconds_each:.2g} s each{left}"
+
+
+def _write(result: nw.fitting.FitResult, folder: Path, images: pictures.Pictures) -> None:
+    """Write the files of a folder."""
+    result.table(folder / "table.csv")
+    best = result.best
+    data = json.dumps(result.numbers(), indent=1, default=float) + "\n"
+    write_whole(folder / "fit.json", data.encode())
+    if not len(best.scene):
+        return
+    best.export(folder / "best.glb")
+    if images.wanted:
+        draft: dict[str, Any] = {"samples": 1, "size": pictures.DRAFT} if images.quick else {}
+        best.save(folder / "best.png", **draft)
+        cells: dict[str, Any] = {"samples": 1, "size": pictures.CELL} if images.quick else {}
+        shown = [sample for sample in result.variants(10) if len(sample.scene)]
+        picture.save_image(lambda: result.sheet(shown, **cells), folder / "sheet.png")
+
+
+def _summary(result: nw.fitting.FitResult, folder: Path | None) -> None:
+    best = result.best
+    width = max(len(name) for name in best.parameters)
+    for name, value in best.parameters.items():
+        print(f"{name:<{width}}  {value:.6g}" if isinstance(value, float) else f"{name:<{width}}  {value}")
+    shares = "" if best.covered is None else f"   {targets.fit.Fit(best.covered, best.outside or 0.0)}"
+    union = "" if best.iou is None else f"   IoU {np.floor(1000 * best.iou) / 1000:.3f}"
+    print(f"log score {best.log_score:.2f}{shares}{union}")
+    failed = sum(result.failures.values())
+    lost = f", {failed} failed" if failed else ""
+    print(f"{counted(len(result), 'evaluation')}{lost}, seed {result.loop.seed}, files in {folder}")
+    for text, number in list(result.failures.items())[:3]:
+        print(f"failed {number} times: {text}")
