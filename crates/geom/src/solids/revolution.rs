@@ -3,7 +3,7 @@
 use super::cylinder::BEVEL;
 use super::measured::{Checks, Form, Measured, Tone, frame_within};
 use super::word::kinds::{Axis, Pairs, Point, Turn};
-use super::word::{Word, boxed, direction, images, laid_along, placed, plain};
+use super::word::{Word, direction, laid_along, placed, plain};
 use crate::convex::Coarse;
 use crate::error::{GeomError, bad_shape as bad};
 use crate::fine::corners::{room, rounded};
@@ -214,12 +214,6 @@ word! {
     }
 }
 
-impl<S: Scalar> RevolveWord<S> {
-    fn laid(&self) -> Result<Mat3, GeomError> {
-        Ok(Mat3::between(Vec3::AXES[1], direction(plain(self.axis), "axis")?))
-    }
-}
-
 impl<S: Scalar> Word<S> for RevolveWord<S> {
     type Solid = Arc<Revolution>;
 
@@ -229,18 +223,19 @@ impl<S: Scalar> Word<S> for RevolveWord<S> {
         }
         note_simple(&corners(&self.profile));
         let profile = self.profile.iter().map(|pair| pair.map(Scalar::value)).collect();
-        Ok((Arc::new(Revolution { profile }), placed(self.center, self.laid()?, self.rotation)))
+        let laid = Mat3::between(Vec3::AXES[1], direction(plain(self.axis), "axis")?);
+        Ok((Arc::new(Revolution { profile }), placed(self.center, laid, self.rotation)))
     }
 
     fn at(&self) -> [[S; 3]; 4] {
-        // The box around the profile and its mirror image; the axis has its own derivatives.
-        let [x, _, z] = images(self.laid().unwrap_or(Mat3::IDENTITY), self.rotation);
-        let y = laid_along([S::from_f64(0.0); 3], self.axis, self.rotation, S::from_f64(1.0))[2];
-        let zero = S::from_f64(0.0);
-        let reach = self.profile.iter().fold(zero, |reach, pair| reach.max(pair[0]));
-        let heights: Vec<[S; 2]> = self.profile.iter().map(|pair| [pair[1], zero]).collect();
-        let [middle, along, ..] = boxed(&heights, [zero; 2], self.center, [y, x, z]);
-        [middle, x.map(|part| part * reach), along, z.map(|part| part * reach)]
+        let unity = S::from_f64(1.0);
+        let [.., axis, _] = laid_along(self.center, self.axis, self.rotation, unity);
+        let heights = self.profile.iter().map(|pair| pair[1]);
+        let low = heights.clone().reduce(|a, b| a.min(b)).unwrap_or(unity);
+        let high = heights.reduce(|a, b| a.max(b)).unwrap_or(unity);
+        let middle = S::from_f64(0.5) * (low + high);
+        let center = [0, 1, 2].map(|k| self.center[k] + axis[k] * middle);
+        laid_along(center, self.axis, self.rotation, high - low)
     }
 }
 
