@@ -36,24 +36,24 @@ pub fn counter_clockwise(mut corners: Vec<Pair>) -> Vec<Pair> {
 }
 
 /// Refuses a list with fewer points than `least` or more than `most`, with a number that is not finite, and with a point twice in
-/// a row. `what` begins the sentence: `polygon of an extrusion`.
+/// a row. `subject` names the list in the message: `polygon of an extrusion`.
 ///
 /// # Errors
 /// `bad-shape`.
 pub fn check_points<const N: usize>(
-    what: &str,
+    subject: &str,
     points: &[[f64; N]],
     (least, most): (usize, usize),
 ) -> Result<(), GeomError> {
     let count = points.len();
     if !(least..=most).contains(&count) {
-        return bad(format!("the {what} has {count} points, expected {least} to {most}"));
+        return bad(format!("the {subject} has {count} points, expected {least} to {most}"));
     }
     if let Some(k) = points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
-        return bad(format!("point {k} of the {what} is {:?}, expected finite numbers", points[k]));
+        return bad(format!("point {k} of the {subject} is {:?}, expected finite numbers", points[k]));
     }
     match points.windows(2).position(|pair| pair[0] == pair[1]) {
-        Some(k) => bad(format!("points {k} and {} of the {what} are the same", k + 1)),
+        Some(k) => bad(format!("points {k} and {} of the {subject} are the same", k + 1)),
         None => Ok(()),
     }
 }
@@ -63,7 +63,7 @@ pub fn check_points<const N: usize>(
 /// # Errors
 /// `bad-shape`.
 pub fn check_simple<S: Scalar>(
-    what: &str,
+    subject: &str,
     corners: &[[S; 2]],
     side: &dyn Fn(usize) -> String,
 ) -> Result<(), GeomError> {
@@ -72,14 +72,14 @@ pub fn check_simple<S: Scalar>(
     for k in 0..n {
         let (a, b, c) = (at(k), at(k + 1), at(k + 2));
         if turn(a, b, c) == zero && dot(minus(b, a), minus(c, b)) < zero {
-            return bad(format!("the {what} turns back on itself where {} ends", side(k)));
+            return bad(format!("the {subject} turns back on itself where {} ends", side(k)));
         }
     }
     for i in 0..n {
         // The first and the last side are neighbours.
         for j in i + 2..n - usize::from(i == 0) {
             if meet([at(i), at(i + 1)], [at(j), at(j + 1)]) {
-                return bad(format!("the {what} crosses itself: {} meets {}", side(i), side(j)));
+                return bad(format!("the {subject} crosses itself: {} meets {}", side(i), side(j)));
             }
         }
     }
@@ -90,15 +90,15 @@ pub fn check_simple<S: Scalar>(
 ///
 /// # Errors
 /// `bad-shape`.
-pub fn check_section(what: &str, corners: &[Pair], most: usize) -> Result<(), GeomError> {
-    check_points(what, corners, (3, most))?;
+pub fn check_section(subject: &str, corners: &[Pair], most: usize) -> Result<(), GeomError> {
+    check_points(subject, corners, (3, most))?;
     let last = corners.len() - 1;
     if corners[0] == corners[last] {
         return bad(format!(
-            "the first and the last point of the {what} are the same; it closes without the last"
+            "the first and the last point of the {subject} are the same; it closes without the last"
         ));
     }
-    check_simple(what, corners, &|k| {
+    check_simple(subject, corners, &|k| {
         format!("the side from point {} to point {}", k % (last + 1), (k + 1) % (last + 1))
     })
 }
@@ -174,16 +174,8 @@ mod tests {
             [radius * cos, radius * sin]
         });
         let comb = (0..8).flat_map(|k| [[f64::from(k), 3.0], [f64::from(k) + 0.5, 0.1]]);
-        let spiral = vec![
-            [0.0, 0.0],
-            [5.0, 0.0],
-            [5.0, 5.0],
-            [1.0, 5.0],
-            [1.0, 2.0],
-            [3.0, 2.0],
-            [3.0, 3.0],
-            [2.0, 3.0],
-        ];
+        let spiral =
+            [[0.0, 0.0], [5.0, 0.0], [5.0, 5.0], [1.0, 5.0], [1.0, 2.0], [3.0, 2.0], [3.0, 3.0], [2.0, 3.0]];
         let spiral = [&spiral[..], &[[2.0, 4.0], [4.0, 4.0], [4.0, 1.0], [0.0, 1.0]]].concat();
         let square: Vec<Pair> = (0..8)
             .map(|k| {

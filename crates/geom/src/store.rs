@@ -12,6 +12,7 @@ use crate::convex::Coarse;
 use crate::mesh::TriMesh;
 use crate::once::Once;
 use std::cell::{Cell, RefCell};
+use std::fmt;
 use std::ops::Deref;
 use std::rc::Rc;
 use std::sync::OnceLock;
@@ -28,12 +29,11 @@ pub const MOST: usize = 32 << 20;
 /// The count of numbers that a thread reserves at once.
 const BLOCK: u64 = 1 << 10;
 
-/// The number of a shape, or no number.
+/// The number of a shape, or no number. It is not shown: equal shapes have equal texts.
 pub(crate) struct Number(u64);
 
-/// Two shapes with equal measures print alike, so the number is not printed.
-impl std::fmt::Debug for Number {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl fmt::Debug for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("Number")
     }
 }

@@ -288,8 +288,8 @@ def shape_help(message: str) -> str | None:
             '`"tomato"` or `"#c83c1e"`; `hsv` and `lab` make such colors'
         )
     kind = next(row[1] for row in _engine.SHAPES[match[2]][1] if row[0] == match[1])
-    what = _SHAPE_ARGUMENTS.get(kind, "a tuple of three numbers, such as `(0, 1, 0)`")
-    return f"`{match[1]}` of `{match[2]}` is {what}"
+    expected = _SHAPE_ARGUMENTS.get(kind, "a tuple of three numbers, such as `(0, 1, 0)`")
+    return f"`{match[1]}` of `{match[2]}` is {expected}"
 
 
 def plain_default(value: Any) -> bool:

@@ -88,9 +88,11 @@ def test_derivatives_of_positions_are_central_differences(name: str) -> None:
 @nw.model
 def heap():
     """A prism with a corner that only one choice moves, and a hull that moves and turns as a whole."""
-    wide, deep = uniform(1.0, 2.0), uniform(1.0, 3.0)
+    wide = uniform(1.0, 2.0)
+    deep = uniform(1.0, 3.0)
     emit(extrude([(0.0, 0.0), (wide, 0.0), (wide, deep), (0.5, 0.5), (0.0, 5.0)], 2.0), name="prism")
-    angle, shift = uniform(0.0, 1.0), uniform(0.0, 1.0)
+    angle = uniform(0.0, 1.0)
+    shift = uniform(0.0, 1.0)
     turn, by = rotation((0, 0, 1), angle), vec(shift, 0.0, 0.0)
     points = [(1, 2, 3), (4, 0, 0), (0, 5, 0), (0, 0, 6), (1, 1, 1)]
     emit(hull([turn * vec(x, y, z) + by for x, y, z in points]), name="hull")

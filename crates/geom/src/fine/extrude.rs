@@ -28,7 +28,7 @@ pub struct Turned {
 }
 
 impl Section {
-    /// Of a prism of this height, whose upper end is turned by `twist` (radians) and scaled by `taper`.
+    /// The sections of a prism of this height, whose upper end is turned by `twist` (radians) and scaled by `taper`.
     pub fn of(height: f64, twist: f64, taper: f64) -> Section {
         Section { height, twist, taper }
     }

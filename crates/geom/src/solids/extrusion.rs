@@ -96,8 +96,8 @@ impl Measured for Arc<Extrusion> {
     const FORM: Form = Form::Mesh;
 
     fn check(&self, checks: Checks) -> Result<(), GeomError> {
-        let what = "polygon of an extrusion";
-        check_section(what, &self.polygon, MOST)?;
+        let subject = "polygon of an extrusion";
+        check_section(subject, &self.polygon, MOST)?;
         checks.positive("height", self.height)?;
         checks.not_negative("taper", self.taper)?;
         match self.twist.abs() <= TWIST {
@@ -178,12 +178,12 @@ impl<S: Scalar> ExtrudeWord<S> {
             return bad(format!("the axis is {}, expected 0, 1 or 2", self.axis));
         }
         let laid = Mat3::between(Vec3::AXES[1], Vec3::AXES[self.axis]);
-        let own = |[a, b]: &[S; 2]| match self.axis {
+        let turned = |[a, b]: &[S; 2]| match self.axis {
             0 => [-*b, *a],
             1 => [*a, *b],
             _ => [*a, -*b],
         };
-        Ok((self.polygon.iter().map(own).collect(), laid))
+        Ok((self.polygon.iter().map(turned).collect(), laid))
     }
 }
 

@@ -187,7 +187,7 @@ solids! {
     Arch(Arch) [arch::ArchWord];
     /// A prism over any polygon.
     Extrusion(Arc<Extrusion>) [extrusion::ExtrudeWord];
-    /// What a line encloses with an axis about which it is turned.
+    /// A solid of revolution.
     Revolution(Arc<Revolution>) [revolution::RevolveWord];
     /// A polygon drawn along a path.
     Sweep(Arc<Sweep>) [sweep::SweepWord];

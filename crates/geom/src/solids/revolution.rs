@@ -3,7 +3,7 @@
 use super::cylinder::BEVEL;
 use super::measured::{Checks, Form, Measured, Tone, frame_within};
 use super::word::kinds::{Axis, Pairs, Point, Turn};
-use super::word::{Word, boxed, direction, images, laid_along, placed, plain};
+use super::word::{Word, direction, laid_along, placed, plain};
 use crate::convex::Coarse;
 use crate::error::{GeomError, bad_shape as bad};
 use crate::fine::corners::{room, rounded};
@@ -24,7 +24,7 @@ use std::sync::Arc;
 /// Sides of the coarse mesh around the axis.
 const SIDES: usize = 12;
 
-/// What a line encloses with the axis y when it is turned about it.
+/// A solid of revolution: a line encloses it with the axis y when it is turned about it.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Revolution {
     /// Points of the line: the distance from the axis and the height, in either direction. An end that is not on the axis
@@ -119,12 +119,12 @@ impl Measured for Arc<Revolution> {
     const TONE: Tone = Tone::Round;
 
     fn check(&self, _checks: Checks) -> Result<(), GeomError> {
-        let what = "profile of a revolution";
-        check_points(what, &self.profile, (2, MOST))?;
+        let subject = "profile of a revolution";
+        check_points(subject, &self.profile, (2, MOST))?;
         if let Some(k) = self.profile.iter().position(|p| p[0] < 0.0) {
             let radius = self.profile[k][0];
             return bad(format!(
-                "point {k} of the {what} has the radius {radius}, expected 0 or more: the axis is at 0"
+                "point {k} of the {subject} has the radius {radius}, expected 0 or more: the axis is at 0"
             ));
         }
         let (is_ring, last) = (self.is_ring(), self.profile.len() - 1);
@@ -132,20 +132,20 @@ impl Measured for Arc<Revolution> {
         if let Some(k) = self.profile[within.clone()].iter().position(|p| p[0] == 0.0) {
             let k = k + within.start;
             return bad(format!(
-                "point {k} of the {what} is on the axis, where only the ends of a line may be"
+                "point {k} of the {subject} is on the axis, where only the ends of a line may be"
             ));
         }
         let ends = [self.profile[0], self.profile[last]];
         if !is_ring && ends[0][1] == ends[1][1] {
             return bad(format!(
-                "the {what} begins and ends at the same height; a line that makes a ring ends with its first point"
+                "the {subject} begins and ends at the same height; a line that makes a ring ends with its first point"
             ));
         }
         let corners = corners(&self.profile);
         if twice_signed(&corners) == 0.0 {
-            return bad(format!("the {what} lies on the axis, and encloses nothing with it"));
+            return bad(format!("the {subject} lies on the axis, and encloses nothing with it"));
         }
-        check_simple(what, &corners, &|k| match k % corners.len() {
+        check_simple(subject, &corners, &|k| match k % corners.len() {
             k if k < last => format!("the line from point {k} to point {}", k + 1),
             _ => "the line from an end to the axis".to_string(),
         })
@@ -214,12 +214,6 @@ word! {
     }
 }
 
-impl<S: Scalar> RevolveWord<S> {
-    fn laid(&self) -> Result<Mat3, GeomError> {
-        Ok(Mat3::between(Vec3::AXES[1], direction(plain(self.axis), "axis")?))
-    }
-}
-
 impl<S: Scalar> Word<S> for RevolveWord<S> {
     type Solid = Arc<Revolution>;
 
@@ -229,18 +223,19 @@ impl<S: Scalar> Word<S> for RevolveWord<S> {
         }
         note_simple(&corners(&self.profile));
         let profile = self.profile.iter().map(|pair| pair.map(Scalar::value)).collect();
-        Ok((Arc::new(Revolution { profile }), placed(self.center, self.laid()?, self.rotation)))
+        let laid = Mat3::between(Vec3::AXES[1], direction(plain(self.axis), "axis")?);
+        Ok((Arc::new(Revolution { profile }), placed(self.center, laid, self.rotation)))
     }
 
     fn at(&self) -> [[S; 3]; 4] {
-        // The box around the profile and its mirror image; the axis has its own derivatives.
-        let [x, _, z] = images(self.laid().unwrap_or(Mat3::IDENTITY), self.rotation);
-        let y = laid_along([S::from_f64(0.0); 3], self.axis, self.rotation, S::from_f64(1.0))[2];
-        let zero = S::from_f64(0.0);
-        let reach = self.profile.iter().fold(zero, |reach, pair| reach.max(pair[0]));
-        let heights: Vec<[S; 2]> = self.profile.iter().map(|pair| [pair[1], zero]).collect();
-        let [middle, along, ..] = boxed(&heights, [zero; 2], self.center, [y, x, z]);
-        [middle, x.map(|part| part * reach), along, z.map(|part| part * reach)]
+        let unity = S::from_f64(1.0);
+        let [.., axis, _] = laid_along(self.center, self.axis, self.rotation, unity);
+        let heights = self.profile.iter().map(|pair| pair[1]);
+        let low = heights.clone().reduce(|a, b| a.min(b)).unwrap_or(unity);
+        let high = heights.reduce(|a, b| a.max(b)).unwrap_or(unity);
+        let middle = S::from_f64(0.5) * (low + high);
+        let center = [0, 1, 2].map(|k| self.center[k] + axis[k] * middle);
+        laid_along(center, self.axis, self.rotation, high - low)
     }
 }
 
@@ -263,7 +258,7 @@ mod tests {
         Shape::placed(solid.into(), vec3(1.0, 2.0, 3.0), Mat3::IDENTITY, &look)
     }
 
-    /// Of a stack of frustums; the sign is that of the direction.
+    /// The volume of a stack of frustums; the sign is that of the direction.
     fn volume(profile: &[Pair]) -> f64 {
         let frustum = |p: Pair, q: Pair| PI / 3.0 * (p[0] * p[0] + p[0] * q[0] + q[0] * q[0]) * (q[1] - p[1]);
         profile.windows(2).map(|pair| frustum(pair[0], pair[1])).sum::<f64>().abs()

@@ -94,9 +94,9 @@ fn rings<S: Scalar>(profile: &[[S; 2]], path: &[Three<S>], scale: S) -> Vec<Vec<
         sections.push(next);
     }
     let (zero, unity) = (S::from_f64(0.0), S::from_f64(1.0));
-    let mut gone = vec![zero];
+    let mut lengths = vec![zero];
     for (k, section) in sections.iter().enumerate() {
-        gone.push(gone[k] + dot(plus(path[k + 1], path[k], -unity), section.0[2]));
+        lengths.push(lengths[k] + dot(plus(path[k + 1], path[k], -unity), section.0[2]));
     }
     let last = path.len() - 1;
     let ring = |k: usize| -> Vec<Three<S>> {
@@ -105,7 +105,7 @@ fn rings<S: Scalar>(profile: &[[S; 2]], path: &[Three<S>], scale: S) -> Vec<Vec<
         let scale = match k {
             _ if k == last => scale,
             0 => unity,
-            _ => unity + (scale - unity) * gone[k] / gone[last],
+            _ => unity + (scale - unity) * lengths[k] / lengths[last],
         };
         let [sideways, up, along] = before.0;
         // The plane of the mitre is as steep to one side of the bend as to the other.
