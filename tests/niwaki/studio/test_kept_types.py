@@ -119,7 +119,7 @@ def test_an_argument_keeps_the_type_of_its_parameter(result, tmp_path):
         "whole": True,
     }
 
-    async def kept() -> dict[str, Any]:
+    async def typed() -> dict[str, Any]:
         session = Session(tmp_path, [])
         session.models = [listed]
         session.step("model", {"model": question.model})
@@ -128,7 +128,7 @@ def test_an_argument_keeps_the_type_of_its_parameter(result, tmp_path):
         await session.end()
         return session.document.arguments
 
-    assert [(name, type(value)) for name, value in asyncio.run(kept()).items()] == [
+    assert [(name, type(value)) for name, value in asyncio.run(typed()).items()] == [
         ("width", float),
         ("depth", float),
         ("count", int),

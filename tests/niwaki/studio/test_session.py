@@ -180,13 +180,13 @@ def test_the_gallery_shows_results_of_the_present_model(connected):
     assert connected.view["results"] == [] and connected.view["picked"] is None
     connected.ask("set", settings={"count": 1, "seed": 1, "effort": 0.1})
     connected.ask("run")
-    others = connected.view["results"]
-    assert others
+    buildings = connected.view["results"]
+    assert buildings
     connected.ask("model", reference="spaceship")
     assert connected.view["results"] == results and connected.view["picked"] == results[0]["key"]
     connected.ask("run")
     connected.ask("model", reference="building")
-    assert connected.view["results"] == others
+    assert connected.view["results"] == buildings
 
 
 def test_two_windows_see_the_same_session(served, connected):
