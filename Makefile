@@ -218,7 +218,7 @@ bench-batch: $(STAMPS)/engine
 	$(PY) benches/batch.py
 
 soak: $(STAMPS)/engine $(STAMPS)/test
-	cargo test $(CARGO_FLAGS) --workspace -- --ignored
+	NIWAKI_REPETITIONS=4 cargo test $(CARGO_FLAGS) --workspace -- --include-ignored
 	$(PY) -m pytest -m soak || { status=$$?; [ $$status -eq 5 ] && echo "no long test yet" || exit $$status; }
 	$(PY) tests/fuzz/fuzzers.py --minutes 1
 

@@ -2,7 +2,7 @@
 
     python benches/pictures.py docs/pictures
 
-solids.png: each word that makes a solid;
+solids.png: each word that makes a solid; holes.png: solids cut from others;
 ships.png: ten ships in one target; tree.png: three trees in one target and, below, three without a target;
 growth.gif: the best of the ships, growing; letters.png: a word in vines and one in lightning. Each stays below
 `LARGEST` bytes.
@@ -53,6 +53,7 @@ def draw(folder: Path) -> list[Path]:
     trees = grow(niwaki_tree, targets.niwaki(), particles=1000, voxel=TREE_VOXEL, runs=10, seed=1)
     return [
         written(folder / "solids.png", solids()),
+        written(folder / "holes.png", holes()),
         written(folder / "ships.png", fleet(ships)),
         written(folder / "tree.png", garden(trees)),
         written(folder / "letters.png", words()),
@@ -84,6 +85,19 @@ def solids() -> Image.Image:
     ]
     scenes = [Scene([(shape.kind, [shape])]) for shape in examples]
     return sheet(scenes, columns=5, size=(200, 160), elevation=24.0)
+
+
+def holes() -> Image.Image:
+    """A wall with arched windows; a sphere and a box, cut in three ways."""
+    stone, blue = (0.82, 0.78, 0.7), (0.3, 0.42, 0.6)
+    wall = nw.box((0.0, 1.0, 0.0), (4.0, 2.0, 0.4), color=stone)
+    for x in (-1.2, 0.0, 1.2):
+        opening = nw.box((x, 0.8, 0.0), (0.6, 0.8, 1.0)), nw.cylinder((x, 1.2, 0.0), 0.3, 1.0, axis="z")
+        wall = wall - (opening[0] | opening[1])
+    ball = nw.sphere((0.0, 0.0, 0.0), 1.0, color=stone)
+    block = nw.box((0.5, 0.4, 0.6), (1.2, 1.2, 1.2), color=blue)
+    scenes = [Scene([("part", [shape])]) for shape in (wall, ball - block, ball & block, ball | block)]
+    return sheet(scenes, columns=4, size=(180, 120), elevation=20.0)
 
 
 def fleet(ships: Result) -> Image.Image:

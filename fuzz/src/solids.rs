@@ -2,7 +2,7 @@
 
 use crate::numbers::{below, near, ordinary, point, real, size};
 use arbitrary::Unstructured;
-use niwaki_geom::{Frame, GeomError, Look, Mat3, Primitive, Shape, TriMesh, Vec3, vec3};
+use niwaki_geom::{Frame, GeomError, Look, Mat3, Operation, Primitive, Shape, TriMesh, Vec3, vec3};
 use std::sync::Arc;
 
 /// A shape, where its numbers make one.
@@ -43,7 +43,12 @@ pub fn shape(u: &mut Unstructured<'_>) -> Option<Shape> {
         }
         _ => Shape::ellipse(at(u), (length(u), length(u)), ordinary(u), &look),
     };
-    let shape = made.ok()?;
+    let mut shape = made.ok()?;
+    if below(u, 5) == 0 {
+        let tool = Shape::cuboid(at(u), vec3(length(u), length(u), length(u)), &look).ok()?;
+        let operation = [Operation::Difference, Operation::Intersection, Operation::Union][below(u, 3)];
+        shape = Shape::combined(operation, &shape, &tool).ok()?;
+    }
     let aabb = shape.aabb();
     assert!(aabb.low.is_finite() && aabb.high.is_finite(), "{shape:?}");
     Some(shape)

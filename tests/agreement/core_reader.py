@@ -17,6 +17,7 @@ from niwaki import words
 from niwaki.lang import densities
 from niwaki.lang.core import Core
 from niwaki.lang.plain import PlainRun, Run
+from niwaki.words.choices import words_of
 from niwaki.words.distributions import FAMILIES
 
 TOKEN = re.compile(r'\s*(\(|\)|"(?:[^"\\]|\\.)*"|[^\s()"]+)')
@@ -66,7 +67,7 @@ class Reader:
     def __init__(self, core: Core, state: PlainRun) -> None:
         self.core = core
         self.state = state
-        module = parse(core.write(labels=True))[0][1:]
+        module = parse(core.write(components=True))[0][1:]
         self.functions = {part[1]: part for part in module if part[0] == "fn"}
         self.entry = next(part[1] for part in module if part[0] == "entry")
 
@@ -206,6 +207,8 @@ class Reader:
             return self.apply(values[0], values[1:], label)
         if head in ("sample", "observe", "factor", "condition", "query", "emit", "force"):
             self.state.pending = label
+            if head == "sample":
+                return self.state.sample(values[0], *map(words_of, values[1:]))
             return getattr(self.state, head)(values) if head == "emit" else getattr(self.state, head)(*values)
         return OPERATIONS[head](*values)
 
@@ -270,6 +273,7 @@ OPERATIONS: dict[str, Any] = {
     "tuple": lambda *xs: xs,
     "to_list": list,
     "to_tuple": tuple,
+    "options": lambda xs: xs,
     "sorted": lambda xs, reverse=False: sorted(xs, reverse=reverse),
     "sorted_by": lambda xs, keys, reverse=False: [xs[n] for n in _by(xs, keys, sorted, reverse=reverse)],
     "argmin_by": lambda xs, keys: xs[_by(xs, keys, min)],

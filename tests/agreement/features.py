@@ -67,6 +67,14 @@ def m():
     emit(box(a, (1, 1, 1), rotation=r), cylinder(b, 0.5, 2, axis="x"), [limb((0,0,0),(0,1,0),0.2,0.1)])
     return a, b, c.x, dot(a, b), norm(c), normalize(c), distance(a, b), a == vec(1, 2, a.z), a.y, str(vec(1, 2)), r
 """,
+    "holes": """
+def m():
+    x, hole = uniform(-1, 1), box((gaussian(0, 0.3), 0, 0), (0.5, 0.5, 1))
+    wall = box((0, 0, 0), (3, 2, 0.2)) - hole
+    wall -= cylinder((x, 0.5, 0), 0.2, 1, axis="z")
+    emit(wall & box((0, 0, 0), (2.5, 3, 3)), [sphere((0, 3, 0), 1) | wedge((0, 4, 0), (1, 1, 1))])
+    return wall == wall - cylinder((x, 0.9, 0), 0.2, 1, axis="z"), hole == hole, 6 & 3, True | False
+""",
     "look": """
 def m():
     x, a = gaussian(), uniform(0, 3)

@@ -15,11 +15,13 @@ from typing import Any
 import niwaki as nw
 import pytest
 from chain_programs import program
+from features import HEADER
 from niwaki import _engine, kernels
 from niwaki.errors import ModelError, NiwakiError
 from niwaki.lang.compiled import task
 from niwaki.search.engine_runs import engine_form
-from niwaki.targets.sketches import no_self_intersection
+from niwaki.targets import Target
+from niwaki.targets.sketches import match_volume, no_self_intersection
 from niwaki.words import Bernoulli, Gaussian, clip
 from programs import shrink
 from test_engine import NOT_A_PROGRAM, load
@@ -112,6 +114,34 @@ def test_strategies_agree_on_random_programs_with_memoised_functions() -> None:
     tally = look(iter(range(count)), steps, memo=True)
     assert tally.programs > 0.4 * count
     assert tally.accepted > 0.1 * tally.proposals / 4
+
+
+HOLES = """
+def m():
+    width = uniform(2.0, 4.0)
+    wall = box((0, 1, 0), (width, 2, 0.3))
+    for i in range(poisson(1.5)):
+        x, tall = gaussian(0.0, 0.8), uniform(0.3, 1.2)
+        window = box((x, 1, 0), (0.5, tall, 1)) | cylinder((x, 1 + tall / 2, 0), 0.25, 1, axis="z")
+        wall = wall - window
+        if flip(0.6):
+            emit(box((x, 1, 0), (0.4, tall, 0.1)) & sphere((x, 1, 0), 0.7), name="pane")
+    emit(wall, name="wall")
+"""
+
+
+def test_strategies_agree_on_a_wall_with_holes() -> None:
+    """Each kernel, each with the sketches that see a hole: what a cut that is undone leaves equals a fresh run."""
+    model = load(f"{HEADER}@model{HOLES}")
+    solid: Any = nw.box((0, 1, 0), (3, 2, 0.3))
+    target = Target(solid.vertices(), solid.faces())
+    specs = (*no_self_intersection().specs, *match_volume(target, voxel=0.1).specs)
+    for seed, kernel in enumerate(KERNELS[:5]):
+        compiled = task(model, (), {}, specs if seed % 2 else specs[:1], max_steps=100_000)
+        method, functions = engine_form(nw.mh(60, kernel=kernel, warmup=10))
+        difference, proposals, accepted, _ = _engine.agreement(compiled, method, seed, 50, 10, functions)
+        assert not difference, difference
+        assert proposals > 30 and accepted > 0
 
 
 @pytest.mark.soak

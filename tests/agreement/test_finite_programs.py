@@ -55,10 +55,10 @@ STRATEGIES = ("c3", "rerun", "resume", "cache")
 #: Methods of resampling, as in the engine.
 RESAMPLING = ("systematic", "residual", "stratified", "multinomial", "tempered")
 
-#: Programs of `make test`: less than a minute.
-PROGRAMS = 50
+#: Programs of `make test`; the long test tries new ones for as long as it is told.
+PROGRAMS = 20
 #: Those with memoised functions.
-MEMOISED = 30
+MEMOISED = 12
 #: States of a chain.
 STATES = 150
 #: As many values of a method's samples are run again in plain Python.

@@ -60,6 +60,14 @@ def test_shape_by_hand(open_page, served):
     call = address.rpartition("/")[0]
     assert page.evaluate("window.__studio.selection.level") == call
     assert "spaceship.py:" in page.locator(".source").inner_text()
+    labels = page.evaluate("window.__studio.described.labels")
+    assert labels["while[0]/kind"] == ["Section 1 › kind", "kind"]
+    whole, last = labels[call]
+    crumbs = page.locator(".levels button").all_inner_texts()
+    assert crumbs[-1] == last and last.startswith("section") and " › " in whole
+    assert any(crumb.startswith("wing") for crumb in crumbs) and "while" not in "".join(crumbs)
+    fit = page.evaluate("window.__studio.view.results[0].fit")
+    assert page.locator(".card .caption span").first.inner_text() == fit and fit.endswith("% outside")
     picture(page, "shape")
     first = page.evaluate("window.__studio.view.picked.run")
     with timed("re-roll"):
@@ -82,7 +90,7 @@ def test_shape_by_hand(open_page, served):
     assert {name: choices[name] for name in held} == held
     assert (camera(page) == before).all()
     picture(page, "held")
-    page.get_by_role("button", name=f"Free {call}").click()
+    page.get_by_role("button", name=f"Free {whole}").click()
     until(page, "window.__studio.view.held.length == 0")
 
 

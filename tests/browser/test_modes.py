@@ -125,7 +125,7 @@ def test_a_structure_shows_forces_and_falling_blocks_and_exports_boards(open_pag
         for choice in choices
         if choice["family"] == "uniform" and (choice["low"], choice["high"]) == (-1.0, 1.0)
     ]
-    label = page.locator(f"label[title^='{sliding[0]['address']}:']")
+    label = page.locator(f"label[title*='\\A {sliding[0]['address']}:']")
     label.locator("input").fill("1")
     until(page, "window.__studio.judged?.holds === false")
     assert page.evaluate("window.__studio.judged.loose.length") > 0

@@ -152,19 +152,20 @@ class Distribution:
 
 _DRAWS_HEAD = '''"""Draws: a lower-case name makes a choice at once, `gaussian(0, 1)` for `sample(Gaussian(0, 1))`.
 
-Parameters, defaults and docstring of such a word are those of its class in `distributions`. Written by
+Parameters and defaults of such a word are those of its class in `distributions`, and a `label`. Written by
 tests/house/words.py from the engine's table of families.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from niwaki.words import distributions as d
-from niwaki.words.choices import draws
+from niwaki.words.running import runner
 '''
 
+_LABEL = "The choice's name for people, a constant text; by default what the choice decides."
 #: The word of a family whose name is another; a fixed value is not drawn.
 _OTHER = {"bernoulli": "flip", "delta": None}
 _DRAWN = {
@@ -209,15 +210,26 @@ def _class(family: str) -> str:
 
 def _draws() -> str:
     words = _words_that_draw()
-    lines = []
-    for word, family in words.items():
-        name, _, rows, space, *_ = _engine.FAMILIES[family]
-        drawn = _DRAWN.get(space, "float")
-        # What is drawn is not known: the annotation says so.
-        types = ", ".join(row[1].replace("Distribution", "d.Distribution") for row in rows)
-        typed = f": Callable[[{types}], Any]" if drawn == "object" else ""
-        lines.append(f'{word}{typed} = draws("{word}", d.{name}, {drawn})')
-    return "\n".join([_DRAWS_HEAD, _listed(list(words)), "", *lines, ""])
+    return "\n\n".join([f"{_DRAWS_HEAD}\n{_listed(list(words))}\n", *map(_word, words, words.values())])
+
+
+def _word(word: str, family: str) -> str:
+    """A word that draws: the signature, the docstring and the draw."""
+    name, doc, rows, space, *_ = _engine.FAMILIES[family]
+    # What is drawn is not known of mixtures: the annotation says so.
+    drawn = {"object": "Any"}.get(_DRAWN.get(space, "float"), _DRAWN.get(space, "float"))
+    typed = [
+        (n, kind.replace("Distribution", "d.Distribution"), default, about)
+        for n, kind, default, about in rows
+    ]
+    signature = [*(_parameter(*row) for row in typed), "*", "label: str | None = None"]
+    draw = f'runner("{word}").sample(d.{name}({", ".join(row[0] for row in rows)}))'
+    lines = [_fitted(f"def {word}(", signature, f") -> {drawn}:", ""), f'    """{_indented(doc.strip())}', ""]
+    lines += _parameters([*rows, ("label", "str", "None", _LABEL)])
+    lines += (
+        [f"    return {draw}"] if drawn == "Any" else [f"    drawn: {drawn} = {draw}", "    return drawn"]
+    )
+    return "\n".join(lines) + "\n"
 
 
 def _stub(stub: str) -> str:

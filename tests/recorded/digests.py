@@ -132,7 +132,9 @@ def _named(value: Any, names: Iterable[str]) -> Iterable[bytes]:
     for name in names:
         if name not in LEFT_OUT:
             yield name.encode()
-            yield from _parts(getattr(value, name))
+            # The run itself holds the places of words.
+            of_places = name == "choices" and isinstance(value, Sample)
+            yield from _parts(value.places if of_places else getattr(value, name))
 
 
 def _scene(result: Result) -> Iterable[bytes]:

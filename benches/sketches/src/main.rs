@@ -139,6 +139,11 @@ fn measure(
     ))
 }
 
+/// True if a loop by hand knows the cells and the outline of this kind.
+fn has_a_loop(kind: &str) -> bool {
+    !kind.starts_with("mesh") && !kind.ends_with("hole")
+}
+
 /// The loops by hand and the peers, with how many of their answers differ from the engine's.
 fn limits(
     goals: &Goals,
@@ -158,7 +163,7 @@ fn limits(
         sketch
     };
     match name {
-        "volume" if !kind.starts_with("mesh") => {
+        "volume" if has_a_loop(kind) => {
             let grid = goals.target.grid();
             let target = Bits::of(grid.dims(), |cell| goals.target.contains(cell));
             let add = |bits: &mut Bits, one: &Primitive| {
@@ -193,7 +198,7 @@ fn limits(
             });
             vec![("hand", hand), ("differ", fewer), ("of", cells)]
         }
-        "silhouette" | "shadow" if !kind.starts_with("mesh") => {
+        "silhouette" | "shadow" if has_a_loop(kind) => {
             let dims = [SIDE, SIDE, 1];
             let target = Bits::of(dims, |[x, y, _]| goals.on[y * SIDE + x]);
             let mut points = Vec::new();

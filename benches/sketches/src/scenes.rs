@@ -3,7 +3,7 @@
 use niwaki_geom::view::camera::Camera;
 use niwaki_geom::view::{Lens, Light, shadow_rays};
 use niwaki_geom::{
-    GeomError, Look, Mat3, Picture, Primitive, Rule, Shape, SketchSpec, Target, TargetPicture, TriMesh, Vec3,
+    GeomError, Look, Mat3, Operation, Picture, Primitive, Rule, Shape, SketchSpec, Target, TargetPicture, TriMesh, Vec3,
     avoid, floor, match_image, match_shadow, match_volume, no_self_intersection, vec3,
 };
 use std::f64::consts::TAU;
@@ -40,7 +40,8 @@ impl Dice {
 }
 
 /// The kinds of primitives, in the order of the table.
-pub const KINDS: [&str; 6] = ["aligned box", "box", "cylinder", "limb", "mesh 100", "mesh 10000"];
+pub const KINDS: [&str; 8] =
+    ["aligned box", "box", "cylinder", "limb", "box with a hole", "turned box with a hole", "mesh 100", "mesh 10000"];
 
 /// The sketches, in the order of the table.
 pub const SKETCHES: [&str; 6] = ["volume", "avoid", "self-intersection", "silhouette", "shadow", "floor"];
@@ -95,6 +96,11 @@ impl Maker {
             "limb" => {
                 let normals = (Some(along), (along + dice.direction() * 0.3).unit());
                 Shape::limb(at, at + along * size.y, (0.3 * size.x, 0.25 * size.x), normals, &plain)
+            }
+            "box with a hole" | "turned box with a hole" => {
+                let look = if kind == "box with a hole" { plain } else { turned };
+                let hole = Shape::cuboid(at, vec3(0.5 * size.x, 0.5 * size.y, 2.0 * size.z), &look)?;
+                Shape::combined(Operation::Difference, &Shape::cuboid(at, size, &look)?, &hole)
             }
             _ => Shape::mesh(&self.meshes[usize::from(kind != "mesh 100")], at, size.x, &turned),
         }

@@ -1,6 +1,6 @@
-//! For tests: compares the four strategies step by step. Proposals, decisions, exchanges, scores and scenes are equal to the
-//! bit, proposals that are not kept leave nothing behind, and sums equal those of a run from the start. With several powers, on
-//! each rung.
+//! For tests. [`compare`] runs the four strategies step by step: proposals, decisions, exchanges, scores and scenes are equal to
+//! the bit, proposals that are not kept leave nothing behind, and sums equal those of a run from the start. With several powers,
+//! on each rung. [`repetitions`] is the size of a statistical test.
 
 use niwaki_chain::ladder::Ladder;
 use niwaki_chain::walk::state::State;
@@ -15,6 +15,20 @@ use std::collections::HashMap;
 use std::fmt::Write;
 
 const STRATEGIES: [Strategy; 4] = [Strategy::Rerun, Strategy::Resume, Strategy::Cache, Strategy::C3];
+
+/// The expected count below which z-scores of an outcome are not normal: tests count such outcomes together.
+pub const RARE: f64 = 25.0;
+
+/// The number of repetitions of a statistical test: a quarter of `full`, times the factor in the environment's
+/// `NIWAKI_REPETITIONS`. `make soak` sets it to 4.
+///
+/// # Panics
+/// If the factor is not a positive whole number.
+pub fn repetitions(full: u64) -> u64 {
+    let factor = std::env::var("NIWAKI_REPETITIONS").map_or(1, |text| text.parse().expect("a whole number"));
+    assert!(factor > 0, "the factor of repetitions is 0");
+    full * factor / 4
+}
 
 /// The size of a comparison.
 #[derive(Clone, Copy, Debug, Default)]

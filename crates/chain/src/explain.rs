@@ -13,6 +13,7 @@ use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::kept::inspect::Activation;
 use niwaki_vm::machine::kept::{Change, Propose, Proposed, Step, Strategy};
+use niwaki_vm::machine::words;
 use niwaki_vm::value::Value;
 use std::collections::HashMap;
 
@@ -64,7 +65,8 @@ type Keyed = Vec<(Event, u128)>;
 
 struct Draws {
     key: StreamKey,
-    drawn: Option<Value>,
+    /// The old and the new value.
+    drawn: Option<(Value, Value)>,
 }
 
 impl Propose<f64> for Draws {
@@ -76,7 +78,9 @@ impl Propose<f64> for Draws {
         log: f64,
     ) -> Result<Proposed<f64>, Fault> {
         let proposed = FromPrior.propose(at, 0, dist, old, log, &mut self.key.at(at.address()))?;
-        self.drawn = Some(proposed.value.clone());
+        let names = at.words();
+        let [old, new] = [old, &proposed.value].map(|value| words::named(value, names.as_deref()));
+        self.drawn = Some((old, new));
         Ok(proposed)
     }
 }
@@ -99,7 +103,6 @@ pub fn explain(task: &Task, seed: u64, tries: u64, address: &str) -> Result<Expl
         return Err(no_choice(address, &paths).into());
     };
     let home = state.trace.key_of(program, state.trace.activation(choice, 0));
-    let old = state.trace.choice(program, choice).0.clone();
     let before = state.trace.outline(program);
     let mut machine = task.machine();
     let mut runs: Vec<(Strategy, Keyed, bool)> = Vec::new();
@@ -134,7 +137,7 @@ pub fn explain(task: &Task, seed: u64, tries: u64, address: &str) -> Result<Expl
             }
         }
     }
-    let Some(new) = new else {
+    let Some((old, new)) = new else {
         return Err(Fault::new("one-value", format!("the choice `{}` drew no other value", paths[choice]))
             .with_help("explain a choice that can have more than one")
             .into());

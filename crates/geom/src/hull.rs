@@ -16,8 +16,7 @@ struct Triangle {
 
 /// Faces and edges of the hull of `points`, or `None` when they lie in a plane.
 pub fn hull(points: &[Vec3]) -> Option<Topology> {
-    let size = Aabb::around(points.iter().copied()).extent();
-    let close = 1e-10 * size.x.max(size.y).max(size.z);
+    let close = closeness(points);
     let make = |corners: [u32; 3]| {
         let [a, b, c] = corners.map(|i| points[i as usize]);
         let normal = (b - a).cross(c - a).unit()?;
@@ -43,6 +42,17 @@ pub fn hull(points: &[Vec3]) -> Option<Topology> {
         }
     }
     Some(Topology::from_faces(points.len(), merged(&faces, points, close)?))
+}
+
+/// The distance below which a point lies on a plane.
+fn closeness(points: &[Vec3]) -> f64 {
+    let size = Aabb::around(points.iter().copied()).extent();
+    1e-10 * size.x.max(size.y).max(size.z)
+}
+
+/// True for points in a plane, which have no hull.
+pub fn is_flat(points: &[Vec3]) -> bool {
+    first_tetrahedron(points, closeness(points)).is_none()
 }
 
 /// Four points far from each other, as outward triangles.

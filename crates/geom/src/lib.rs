@@ -4,7 +4,9 @@
 //! - [`placement`], [`ring`], [`tube`], [`look`]: the measures of a shape, and what else is given of it
 //! - [`mesh`], [`topology`], [`polytope`], [`hull`], [`limb`], [`segment`], [`convex`]: surfaces and convex solids
 //! - [`solids`]: every kind of solid, a file each, and the shapes that a model emits
+//! - [`polygon`]: sections of solids
 //! - [`plane`]: flat shapes, and which pixels of a page they cover
+//! - [`cut`]: solids cut from other solids
 //! - [`voxel`]: which cells of a grid a shape fills
 //! - [`intersect`]: whether two shapes intersect
 //! - [`view`]: the rays of a picture, and which of them meet a shape
@@ -19,6 +21,7 @@
 pub mod bounds;
 pub mod bricks;
 pub mod convex;
+pub mod cut;
 pub mod error;
 pub mod fine;
 mod folds;
@@ -30,6 +33,7 @@ pub mod mesh;
 mod once;
 pub mod placement;
 pub mod plane;
+pub mod polygon;
 pub mod polytope;
 pub mod ring;
 pub mod segment;
@@ -46,6 +50,7 @@ pub mod window;
 pub use bounds::{Aabb, FAR};
 pub use bricks::Target;
 pub use convex::{Coarse, Convex};
+pub use cut::{Cut, Operation};
 pub use error::GeomError;
 pub use intersect::{Rule, intersects};
 pub use look::Look;

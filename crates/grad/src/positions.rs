@@ -53,7 +53,7 @@ type Framed = Option<[Id; 12]>;
 pub struct Positions {
     /// The numbers that the positions depend on, in the order of the run.
     pub movables: Vec<Movable>,
-    /// The parts of the scene: their readable addresses, and their shapes.
+    /// The parts of the scene: their readable addresses, and their shapes; of a cut, its solids.
     pub parts: Vec<(String, Vec<Framed>)>,
     /// Choices that keep their place in a distribution while inputs change it: their addresses and values.
     followed: Vec<(u128, Id)>,
@@ -173,7 +173,9 @@ impl Answers<Var> for Placer<'_> {
     }
 
     fn emit(&mut self, at: &At<'_, Var>, shapes: &[Shape]) -> Result<Answer<()>, Fault> {
-        let noted = shapes.iter().map(|shape| Var::noted(shape.address())).collect();
+        // The solids of a cut have places of their own: a hole is dragged without its wall.
+        let solids = shapes.iter().flat_map(Shape::leaves);
+        let noted = solids.map(|solid| Var::noted(solid.address())).collect();
         self.parts.push((at.path(), noted));
         Ok(Answer::Go(()))
     }

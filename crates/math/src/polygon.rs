@@ -25,7 +25,7 @@ fn cross<S: Scalar>(a: Point<S>, b: Point<S>) -> S {
 }
 
 /// Twice the signed area, positive for counter-clockwise corners: the shoelace formula.
-fn twice_signed<S: Scalar>(corners: &[Point<S>]) -> S {
+pub fn twice_signed<S: Scalar>(corners: &[Point<S>]) -> S {
     let Some(first) = corners.first() else { return S::from_f64(0.0) };
     edges(corners).fold(S::from_f64(0.0), |sum, (a, b)| sum + cross(minus(a, *first), minus(b, *first)))
 }

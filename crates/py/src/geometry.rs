@@ -8,7 +8,7 @@ use crate::views::{PyDrawing, PyPicture};
 use niwaki_geom::sketch::{SKETCHES, SketchForm};
 use niwaki_geom::solids::WORDS;
 use niwaki_geom::{
-    Ellipse, GeomError, Inputs, Primitive, Shape, SketchSpec, Sketches, Solid, Stroke, Target, TriMesh, Vec3,
+    Ellipse, GeomError, Inputs, Operation, Primitive, Shape, SketchSpec, Sketches, Solid, Stroke, Target, TriMesh, Vec3,
 };
 use niwaki_math::Parameter;
 use niwaki_vm::builtins::{builtin, builtin_id, placed_mesh};
@@ -198,6 +198,41 @@ impl PyShape {
         }
     }
 
+    /// The solids of a cut, in the world; of any other shape, itself.
+    fn leaves(&self) -> Vec<PyShape> {
+        self.0.leaves().iter().cloned().map(PyShape).collect()
+    }
+
+    /// The tree of a cut in postfix order: ``solid`` for the next of its solids, or an operator; empty for any other shape.
+    fn steps(&self) -> Vec<&'static str> {
+        self.0.cut().map_or_else(Vec::new, |cut| cut.steps().iter().map(|step| step.sign()).collect())
+    }
+
+    /// Shapes of one look each, which together look like this one.
+    fn coats(&self) -> Vec<PyShape> {
+        self.0.coats().into_iter().map(PyShape).collect()
+    }
+
+    /// The places among its ``leaves`` of the solids whose faces pictures show: all, or those of a coat.
+    fn shown(&self) -> Vec<usize> {
+        self.0.shown()
+    }
+
+    /// This solid without another.
+    fn __sub__(&self, py: Python<'_>, other: &PyShape) -> PyResult<PyShape> {
+        self.combined(py, Operation::Difference, other)
+    }
+
+    /// The part that two solids have in common.
+    fn __and__(&self, py: Python<'_>, other: &PyShape) -> PyResult<PyShape> {
+        self.combined(py, Operation::Intersection, other)
+    }
+
+    /// Two solids as one.
+    fn __or__(&self, py: Python<'_>, other: &PyShape) -> PyResult<PyShape> {
+        self.combined(py, Operation::Union, other)
+    }
+
     /// Vertices of the coarse mesh, world space, (n, 3) float64.
     fn vertices<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         vertices_of(py, &self.0.world_mesh())
@@ -211,6 +246,12 @@ impl PyShape {
     fn __repr__(&self) -> String {
         let center = self.0.aabb().center();
         format!("<{} at ({:.4}, {:.4}, {:.4})>", self.0.kind(), center.x, center.y, center.z)
+    }
+}
+
+impl PyShape {
+    fn combined(&self, py: Python<'_>, operation: Operation, other: &PyShape) -> PyResult<PyShape> {
+        Shape::combined(operation, &self.0, &other.0).map(PyShape).map_err(|error| value_error(py, &error))
     }
 }
 

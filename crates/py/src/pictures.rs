@@ -96,14 +96,16 @@ fn frame_camera(
 }
 
 /// The meshes of pictures and files (``fine``), or those that scores see, in the world: of each group of shapes one mesh
-/// `(vertices (n, 3), faces (m, 3), unit normals (n, 3), frame)`. A light mesh has no normals. The frame is that of the
+/// `(vertices (n, 3), faces (m, 3), unit normals (n, 3), frame)`. A light mesh has no normals. ``sharp`` leaves edges as they
+/// are where a shape has no bevel of its own, as in a cut. The frame is that of the
 /// group's first shape: its origin (3,), and its axes as columns (3, 3).
 #[pyfunction]
-#[pyo3(signature = (groups, *, fine=true))]
-fn meshes(py: Python<'_>, groups: Vec<Vec<PyShape>>, fine: bool) -> PyResult<Vec<Arrays<'_>>> {
-    let mesh = |shape: &PyShape| match fine {
-        true => shape.0.fine_mesh(),
-        false => FineMesh::from(&*shape.0.world_mesh()),
+#[pyo3(signature = (groups, *, fine=true, sharp=false))]
+fn meshes(py: Python<'_>, groups: Vec<Vec<PyShape>>, fine: bool, sharp: bool) -> PyResult<Vec<Arrays<'_>>> {
+    let mesh = |shape: &PyShape| match (fine, sharp) {
+        (true, false) => shape.0.fine_mesh(),
+        (true, true) => shape.0.sharp_mesh(),
+        (false, _) => FineMesh::from(&*shape.0.world_mesh()),
     };
     let joined: Vec<FineMesh> =
         py.detach(|| groups.iter().map(|group| group.iter().map(mesh).collect()).collect());

@@ -138,17 +138,20 @@ pub struct PyChoice {
     address: u128,
     /// The family of its distribution.
     family: &'static str,
-    /// Its value.
+    /// Its value: a word, where its options are words.
     value: Py<PyAny>,
+    /// The words of its options, in the order of the numbers that the run holds; None for a choice without words.
+    words: Option<Vec<String>>,
     /// Its log density, nats.
     log_density: f64,
 }
 
 impl PyChoice {
     pub fn of(py: Python<'_>, choice: &replay::Choice, classes: &Classes) -> PyResult<Py<PyChoice>> {
-        let value = classes.object(py, &choice.value)?.unbind();
-        let (address, family, log_density) = (choice.address, choice.family, choice.log_density);
-        Py::new(py, PyChoice { path: choice.path.clone(), address, family, value, log_density })
+        let value = classes.object(py, &choice.named_value())?.unbind();
+        let (path, address, family) = (choice.path.clone(), choice.address, choice.family);
+        let words = choice.words.as_ref().map(|words| words.iter().map(|word| word.to_string()).collect());
+        Py::new(py, PyChoice { path, address, family, value, words, log_density: choice.log_density })
     }
 }
 

@@ -3,6 +3,8 @@
 //! A pattern without `/` is compared with the last component, any other with the whole address. Brackets are plain
 //! text: the number of an iteration.
 
+use niwaki_vm::value::text::edits;
+
 /// Whether a pattern matches an address.
 pub fn matches(pattern: &str, address: &str) -> bool {
     let text = if pattern.contains('/') || pattern.contains("**") { address } else { last(address) };
@@ -48,21 +50,6 @@ pub fn nearest(pattern: &str, known: &[String]) -> Vec<String> {
     ranked.sort();
     ranked.dedup_by(|a, b| a.1 == b.1);
     ranked.into_iter().take(3).map(|(_, address)| address.clone()).collect()
-}
-
-/// The Levenshtein distance.
-fn edits(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
-        for (j, y) in b.iter().enumerate() {
-            let above = row[j + 1];
-            row[j + 1] = (diagonal + usize::from(x != *y)).min(above + 1).min(row[j] + 1);
-            diagonal = above;
-        }
-    }
-    row[b.len()]
 }
 
 #[cfg(test)]

@@ -16,6 +16,8 @@ use niwaki_vm::machine::Stop;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::machine::stack::Call;
 use niwaki_vm::machine::state::State;
+use niwaki_vm::machine::words::named;
+use niwaki_vm::value::text::Text;
 use niwaki_vm::value::{Value, equal, hash, identical, repr};
 use std::collections::HashMap;
 
@@ -30,8 +32,17 @@ pub struct Choice {
     pub family: &'static str,
     /// The value.
     pub value: Value,
+    /// The words of its numbers ([`At::words`]).
+    pub words: Option<Vec<Text>>,
     /// The log density under the prior, nats.
     pub log_density: f64,
+}
+
+impl Choice {
+    /// The value for a person: the word of a number that has one.
+    pub fn named_value(&self) -> Value {
+        named(&self.value, self.words.as_deref())
+    }
 }
 
 /// A replayed run with readable names.
@@ -97,7 +108,7 @@ impl Chooser for Sourced<'_> {
             Source::Paths(map) => map.get(&at.path()),
         };
         match (known, self.missing) {
-            (Some(value), _) => Chosen::given(value.clone(), dist).map(Some),
+            (Some(value), _) => Chosen::given(at.own_value(value)?.into_owned(), dist).map(Some),
             (None, Missing::Draw { seed, stream }) => {
                 Prior(StreamKey::new(seed, stream, 0)).choose(at, dist, seen)
             }
@@ -166,6 +177,7 @@ impl Answers<f64> for Replay<'_> {
             address: seen.address,
             family,
             value: value.clone(),
+            words: at.words(),
             log_density,
         });
         Ok(Answer::Go(value))
@@ -183,6 +195,7 @@ impl Answers<f64> for Replay<'_> {
             address: at.address(),
             family: dist.family().name(),
             value: value.clone(),
+            words: at.words(),
             log_density: log,
         });
         self.score(at, Factor::Held, log)

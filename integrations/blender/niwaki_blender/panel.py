@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any
 
 import bpy
+from niwaki.shares import coverage
 
 from . import growth, operators, permissions, storage
 
@@ -60,8 +61,8 @@ class NIWAKI_PT_panel(bpy.types.Panel):
     def _progress(self, layout: Any, search: growth.Growth) -> None:
         now = search.progress
         text = "Starting" if now is None else f"{now.seconds:.0f} s, round {now.done}"
-        if now is not None and now.best is not None:
-            text += f", score {now.best:.1f}"
+        if now is not None and now.fit:
+            text += f", {now.fit}"
         layout.label(text=text, icon="SORTTIME")
         layout.operator("niwaki.cancel", icon="CANCEL")
 
@@ -70,7 +71,7 @@ class NIWAKI_PT_panel(bpy.types.Panel):
         box.label(text=result.name, icon="OUTLINER_COLLECTION")
         numbers = [f"seed {result['niwaki_seed']}"]
         if "niwaki_covered" in result:
-            numbers.append(f"{result['niwaki_covered']:.0%} covered, {result['niwaki_outside']:.0%} outside")
+            numbers.append(coverage(result["niwaki_covered"], result["niwaki_outside"]))
         box.label(text=", ".join(numbers))
         box.label(text=f"Held parts: {len(storage.held(result))}")
         row = box.row(align=True)

@@ -22,6 +22,7 @@ from niwaki.draw.flat.drawing import Window, drawing
 from niwaki.draw.flat.marks import is_flat
 from niwaki.draw.limits import LARGEST, check_rays, check_size
 from niwaki.draw.palette import paints
+from niwaki.draw.parts import coated
 from niwaki.errors import FileError
 from niwaki.errors.files import check_place, write_whole
 from niwaki.errors.settings import count, is_number
@@ -160,6 +161,7 @@ def picture(
 
 def surfaces(scene: Assembly, like: Assembly | None = None) -> _engine.Surfaces:
     """Make the surfaces of all shapes with their paints, for the engine's `render`."""
+    scene = coated(scene)
     return _engine.Surfaces(
         [
             (shape, paint.color, (paint.gloss, paint.metalness, paint.rough, paint.pitch))

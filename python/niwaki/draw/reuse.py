@@ -102,7 +102,7 @@ def _marks(explained: dict[str, Any]) -> tuple[list[_Mark], int]:
     bottom = min(deepest, top + LEVELS - 1)
     spans = _spans(calls)
     marks = [
-        _Mark("text", MARGIN, 18, text=f"a proposal to {explained['path']}", size=15),
+        _Mark("text", MARGIN, 18, text=f"a proposal to {explained['label']}", size=15),
         _Mark(
             "text",
             MARGIN,

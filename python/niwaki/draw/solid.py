@@ -16,10 +16,11 @@ from numpy.typing import NDArray
 
 from niwaki import _engine
 from niwaki.draw.assembly import Assembly
+from niwaki.draw.closed import closed, kernel
 from niwaki.draw.far import is_far
 from niwaki.draw.finite import finite, floats
+from niwaki.draw.parts import joined
 from niwaki.errors import FileError
-from niwaki.errors.extras import optional
 from niwaki.errors.warned import warn
 
 #: Details of the union below this share of its longest side are removed: slivers below the precision of a float.
@@ -114,25 +115,18 @@ def union(scene: Assembly, scale: float = METRE, fuse: float | None = None) -> S
     return Solid(finite(vertices, "the solid").astype(np.float32), faces, volume, pieces)
 
 
-def kernel() -> Any:
-    """Import the library that joins solids.
-
-    Raises
-    ------
-    FileError
-        The library is not installed.
-    """
-    return optional("manifold3d", "joining parts to a solid", "print")
-
-
 def _solids(scene: Assembly, tools: Any, distance: float) -> list[Any]:
     """Convert each shape to a solid of manifold3d; report all shapes that are not closed together."""
     solids, bad = [], []
     # Shapes are moved to the origin, because the library's tolerance grows with the distance from it.
     origin = scene.bounds[0] if is_far(scene.bounds) else np.zeros(3)
     for part in scene.parts:
-        meshes = _engine.meshes([[shape] for shape in part.shapes])
-        for number, (vertices, triangles, normals, _) in enumerate(meshes):
+        for number, shape in enumerate(part.shapes):
+            if shape.steps():
+                pieces = [mesh[1:] for mesh in closed(shape, part.address)]
+                vertices, triangles, normals = joined([(v, f, n) for v, n, f in pieces])
+            else:
+                ((vertices, triangles, normals, _),) = _engine.meshes([[shape]])
             vertices, faces = _expand(vertices - origin, triangles, normals, distance)
             solid = tools.Manifold(tools.Mesh64(vertices, faces.astype(np.uint64)))
             reason = ""

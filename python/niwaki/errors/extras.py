@@ -15,7 +15,7 @@ EXTRAS = {
     "color": "pictures of coloured drawings (`niwaki color`)",
     "notebook": "a viewer in a notebook whose results can be replaced (`niwaki.view(...).widget()`)",
     "parquet": "a batch's table as Parquet (`niwaki batch export --format parquet`)",
-    "print": "one closed solid for a printer (`--format stl`, `--format 3mf`)",
+    "print": "files of solids with holes, one closed solid for a printer (`--format stl`, `--format 3mf`)",
     "stacks": "judging structures of blocks, and their cutting sheets (`niwaki.stacks`)",
     "studio": "the studio, a page in your browser (`niwaki studio`)",
 }

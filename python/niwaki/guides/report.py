@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from niwaki.shares import percent
+
 #: A run with a lower similarity is a stump: it ended before it covered anything.
 STUMP = 0.1
 
@@ -94,7 +96,7 @@ def sentence(numbers: dict[str, float]) -> str:
     """Return a summary as text."""
     names = {"mean": "mean", "median": "median", "p10": "worst tenth", "stumps": "stumps"}
     shown = [
-        f"{names[name]} {value:.0%}" if name == "stumps" else f"{names[name]} {value:.3f}"
+        f"{names[name]} {percent(value)}" if name == "stumps" else f"{names[name]} {value:.3f}"
         for name, value in numbers.items()
     ]
     return ", ".join(shown)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any, NamedTuple
 
 from niwaki import _engine
 from niwaki.errors.kinds import place
 from niwaki.errors.source import Span
+from niwaki.lang.labels import SEPARATOR, Labels
+from niwaki.lang.nouns import words
 
 
 class Emitted(NamedTuple):
@@ -30,21 +31,22 @@ class Emitted(NamedTuple):
     path: str
     span: tuple[int, int, int, int]
 
-    @property
-    def name(self) -> str:
-        """The part's name, or the function and `emit` if the model gives no name: `tower/emit`."""
-        last = re.sub(r"\[[^]]*\]$", "", self.address.rpartition("/")[2])
+    def name(self, labels: Labels) -> str:
+        """Return the part's label; after its function if the model gives the part no name: `tower › box`."""
+        kind = labels.kind(self.address)
         # The text after a slash is a loop of the function.
         function = self.function.partition("/")[0].rpartition(".")[2]
-        return f"{function}/emit" if last == "emit" else last
+        is_named = not self.address.rpartition("/")[2].startswith("emit")
+        return kind if is_named else f"{words(function)}{SEPARATOR}{kind}"
 
     @property
     def place(self) -> Span:
         """The place in the source."""
         return place(self.path, *self.span)
 
-    def __str__(self) -> str:
-        return f"`{self.name}` (line {self.span[0]})"
+    def text(self, labels: Labels) -> str:
+        """Return the part's name with its line."""
+        return f"`{self.name(labels)}` (line {self.span[0]})"
 
 
 class Blame(NamedTuple):
@@ -73,18 +75,21 @@ class Blame(NamedTuple):
         constraint, part, other, runs = data
         return cls(constraint, _emitted(part), None if other is None else _emitted(other), runs)
 
-    @property
-    def does(self) -> str:
-        """The part's effect, in words: `runs into `road` (line 21)`."""
+    def does(self, labels: Labels) -> str:
+        """Return the part's effect in words: `runs into `road` (line 21)`."""
         if self.other is None:
             part, _ = _engine.SKETCHES.get(self.constraint) or (f"breaks {self.constraint}", "")
             return part
         if self.other[2:] == self.part[2:]:
             return "runs into another part of this line"
-        return f"runs into {self.other}"
+        return f"runs into {self.other.text(labels)}"
+
+    def text(self, labels: Labels) -> str:
+        """Return the part and its effect in words."""
+        return f"{self.part.text(labels)} {self.does(labels)}"
 
     def __str__(self) -> str:
-        return f"{self.part} {self.does}"
+        return self.text(Labels())
 
 
 def _emitted(data: Any) -> Emitted:
@@ -92,12 +97,14 @@ def _emitted(data: Any) -> Emitted:
     return Emitted(address, function, path, tuple(span))
 
 
-def marked(blame: list[Blame], looked_at: int) -> list[tuple[Span, str]]:
+def marked(blame: list[Blame], looked_at: int, labels: Labels) -> list[tuple[Span, str]]:
     """Return the places of the parts that broke a constraint most often in `looked_at` runs, with labels."""
     if not blame:
         return []
     first = blame[0]
-    places = [(first.part.place, f"`{first.part.name}` {first.does} in {first.runs} of {looked_at}")]
+    places = [
+        (first.part.place, f"`{first.part.name(labels)}` {first.does(labels)} in {first.runs} of {looked_at}")
+    ]
     if first.other is not None and first.other.place != first.part.place:
-        places.append((first.other.place, f"`{first.other.name}`"))
+        places.append((first.other.place, f"`{first.other.name(labels)}`"))
     return places

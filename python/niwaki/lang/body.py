@@ -55,9 +55,9 @@ class Body:
         raise ModelError(code, self.span(node), second, **values)
 
     def form(self, head: str, args: Sequence[Expr], node: ast.AST | None = None) -> Form:
-        """Return a form with its place, and with its label if it is a site."""
-        label = self.unit.labels.get(node, "") if node is not None else ""
-        return Form(head, list(args), self.span(node) if node is not None else None, label)
+        """Return a form with its place, and with its component of addresses if it is a site."""
+        component = self.unit.components.get(node, "") if node is not None else ""
+        return Form(head, list(args), self.span(node) if node is not None else None, component)
 
     def temporary(self, name: str | None = None) -> str:
         """Return a fresh variable, named after the variable that the statement assigns, if any."""

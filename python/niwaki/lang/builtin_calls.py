@@ -6,7 +6,7 @@ import ast
 import builtins
 from collections.abc import Callable, Sequence
 from types import FunctionType
-from typing import Any
+from typing import Any, cast
 
 from niwaki import words
 from niwaki.lang import comprehensions, vocabulary
@@ -18,6 +18,7 @@ from niwaki.lang.expressions import closure, expression, expressions, keep_defau
 from niwaki.lang.marks import underlying
 from niwaki.lang.names import MISSING, hashable
 from niwaki.lang.scope import Scope
+from niwaki.words.choices import words_of
 
 TABLE: dict[Any, Callable[[Body, ast.Call], Expr]] = {}
 
@@ -267,23 +268,59 @@ def caller(body: Body, node: ast.expr) -> Caller:
 
 def _named(body: Body, head: str, args: Sequence[Expr], node: ast.AST) -> Form:
     form = body.form(head, args, None)
-    form.span, form.label = body.span(node), body.unit.labels.get((node, "call"), "")
+    form.span, form.component = body.span(node), body.unit.components.get((node, "call"), "")
     return form
 
 
 @lowers(words.choose)
 def choose(body: Body, node: ast.Call) -> Expr:
-    """Lower `choose(values, weights)` to the draw of an index."""
-    parameters = vocabulary.parameters_of(words.choose)
-    values, weights = bind(body, node, node.args, node.keywords, parameters, "choose")
-    assert values is not None
+    """Lower `choose(values, weights)` to the draw of an index; the site has the options if they may be words."""
+    options = node.args[0] if node.args else _keyword(node, "values")
+    table = _table(body, options) if options is not None else None
+    if table is not None and len(node.args) + len(node.keywords) == 1:
+        values, weights = table
+    elif table is not None and (len(node.args) == 2 or _keyword(node, "weights") is not None):
+        body.refuse("argument-twice", node, name="choose", keyword="weights")
+    else:
+        parameters = vocabulary.parameters_of(words.choose)
+        values, weights = bind(body, node, node.args, node.keywords, parameters, "choose")
+    assert values is not None and options is not None
+    if not isinstance(options, ast.List | ast.Tuple | ast.Dict) and static(body, options) is MISSING:
+        values = Form("options", [values], body.span(node))
     values = body.kept(values)
     if weights is None:
         last = Form("sub", [Form("len", [values]), "1"])
         dist = Form("dist", ["discrete_uniform", "0", last], body.span(node))
     else:
         dist = Form("dist", ["categorical", weights], body.span(node))
-    return body.form("index", [values, body.form("sample", [dist], node)], None)
+    drawn = body.form("sample", [dist, values] if _may_be_words(body, options) else [dist], node)
+    return body.form("index", [values, drawn], None)
+
+
+def _table(body: Body, node: ast.expr) -> tuple[Expr, Expr] | None:
+    """Return the keys and the values of a dict of weights as lists, if it is a display or a constant of the module."""
+    known = static(body, node)
+    if isinstance(known, dict):
+        place, text = body.span(node), body.span(node).text
+        return (
+            body.program.constant(list(known), place, text),
+            body.program.constant(list(known.values()), place, text),
+        )
+    if not isinstance(node, ast.Dict):
+        return None
+    keys, *weights = cast("list[Any]", cast("Form", expression(body, node)).args)
+    weight_of = dict(zip(keys.args, weights, strict=True))
+    return Form("list", [*weight_of]), Form("list", [*weight_of.values()])
+
+
+def _may_be_words(body: Body, options: ast.expr) -> bool:
+    """Return whether the options of a choice can be strings: only the run knows the values of variables."""
+    if isinstance(options, ast.List | ast.Tuple):
+        return all(not isinstance(part, ast.Constant) or isinstance(part.value, str) for part in options.elts)
+    if isinstance(options, ast.Dict):
+        return True
+    known = static(body, options)
+    return known is MISSING or words_of([*known] if isinstance(known, dict) else known) is not None
 
 
 @lowers(words.future)

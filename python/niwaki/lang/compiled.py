@@ -16,6 +16,8 @@ from niwaki.errors.settings import MAX_MEMORY, MAX_STEPS, bad, count, refused
 from niwaki.lang import vocabulary
 from niwaki.lang.blame import Blame, marked
 from niwaki.lang.core import Core
+from niwaki.lang.labelling import labels_of
+from niwaki.lang.labels import Labels
 from niwaki.lang.lower import lower
 from niwaki.lang.marks import Marked, P, T
 
@@ -29,6 +31,7 @@ class Compiled(Marked[P, T]):
         super().__init__(function)
         self._core: Core | None = None
         self._program: _engine.Program | None = None
+        self._labels: Labels | None = None
 
     def core(self) -> Core:
         """Return the model in core form."""
@@ -41,6 +44,13 @@ class Compiled(Marked[P, T]):
         if self._program is None:
             self._program = compile_core(self.core())
         return self._program
+
+    @property
+    def labels(self) -> Labels:
+        """The labels of choices and parts by address; without the source of the model, the words of addresses."""
+        if self._labels is None:
+            self._labels = labels_of(self.function)
+        return self._labels
 
 
 def compile_core(core: Core) -> _engine.Program:
@@ -120,12 +130,17 @@ def _signature(model: Compiled[..., Any], count: int) -> inspect.Signature:
 
 
 @contextmanager
-def translated(name: str, replay: str = "", choices: Mapping[str, Any] | None = None) -> Iterator[None]:
-    """Raise a fault of the engine in the block as `ModelFault` or `InputError`."""
+def translated(
+    name: str,
+    replay: str = "",
+    choices: Mapping[str, Any] | None = None,
+    model: Compiled[..., Any] | None = None,
+) -> Iterator[None]:
+    """Raise a fault of the engine in the block as `ModelFault` or `InputError`; the model labels its parts."""
     try:
         yield
     except _engine.EngineFault as fault:
-        raise _error(fault, name, replay, choices or {}) from None
+        raise _error(fault, name, replay, choices or {}, model) from None
 
 
 def as_fault(fault: BaseException | None, name: str, replay: str = "") -> ModelFault | None:
@@ -136,7 +151,13 @@ def as_fault(fault: BaseException | None, name: str, replay: str = "") -> ModelF
     return error if isinstance(error, ModelFault) else None
 
 
-def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Exception:
+def _error(
+    fault: Any,
+    name: str,
+    replay: str,
+    choices: Mapping[str, Any],
+    model: Compiled[..., Any] | None = None,
+) -> Exception:
     if fault.code == "missing-choice":
         near = get_close_matches(fault.subject, list(choices), n=3, cutoff=0.0)
         nearest = ", ".join(f'"{address}"' for address in near) or "none"
@@ -169,15 +190,16 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
             return InputError("obstacle-at-start", count=total)
         causes = ", ".join(f"{cause} ({count})" for cause, count in fault.causes)
         blame = [Blame.of(entry) for entry in fault.blame]
+        labels = Labels() if model is None else model.labels
         return InputError(
             "everything-impossible",
-            marked(blame, fault.looked_at),
+            marked(blame, fault.looked_at, labels),
             barrier=f"barrier {fault.barrier}" if fault.barrier else "the end",
             count=total,
             constraint=causes,
             cure=_cure(fault),
-            often=f"{blame[0]} in {blame[0].runs} of {fault.looked_at}" if blame else "",
-            elsewhere="; ".join(f"{part} in {part.runs}" for part in blame[1:4]),
+            often=f"{blame[0].text(labels)} in {blame[0].runs} of {fault.looked_at}" if blame else "",
+            elsewhere="; ".join(f"{part.text(labels)} in {part.runs}" for part in blame[1:4]),
             attempts=_tried(fault.attempts),
         )
     if fault.code not in MESSAGES or MESSAGES[fault.code].names - {"detail"}:

@@ -101,6 +101,6 @@ def mapped(body: Body, items: Expr, word: str, node: ast.AST, use: Callable[[str
 
     block, _ = body.within(iteration)
     loop = body.form("for", [variable, items, Form("body", block)], node)
-    loop.label = body.unit.labels.get((node, "loop"), "")
+    loop.component = body.unit.components.get((node, "loop"), "")
     body.put(loop)
     return result

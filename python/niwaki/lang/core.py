@@ -13,11 +13,12 @@ Grammar (each `(HEAD ...)` may carry a span atom right after its head, `@L:C-L:C
              | (break) | (continue) | (return E) | (do E) | (assert E E)
     E       := ATOM | $v | (data K) | (and E E+) | (or E E+) | (cond C A B)
              | (call "NAME" E ...) | (closure "NAME" E ...) | (apply E E ...)
-             | (sample E) | (observe E E) | (factor E) | (condition E) | (query E E) | (emit E ...) | (force E)
+             | (sample E OPTIONS?) | (observe E E) | (factor E) | (condition E) | (query E E) | (emit E ...) | (force E)
              | (future "NAME" E ...) | (future_apply E E ...) | (mem E) | (mem E "NAME")
              | (dist FAMILY E ...) | (host K E ...) | (record K E ...) | (field E "name")
              | (list E ...) | (tuple E ...) | (dict (KEY ...) E ...) | (fstr PART ...) | (method E "name" E ...)
              | (OP E ...)
+    OPTIONS := E                                      the list of which the choice draws a place
     PART    := STRING | (format E "spec" "conversion")
     ATOM    := integer | float | inf | -inf | nan | true | false | none | JSON string | (data K) | $v (a capture)
     (data K) and (host K) refer to the table of constants that is passed with the text (`Core.constants`).
@@ -60,12 +61,12 @@ from niwaki.errors.source import SourceFile, Span
 
 @dataclass
 class Form:
-    """A form `(HEAD @SPAN #LABEL args...)`; its arguments are forms or atoms."""
+    """A form `(HEAD @SPAN #COMPONENT args...)`; its arguments are forms or atoms."""
 
     head: str
     args: list[Expr]
     span: Span | None = None
-    label: str = ""
+    component: str = ""
 
 
 Expr = Form | str
@@ -98,40 +99,40 @@ def is_literal(value: Any) -> bool:
     return value is None or type(value) in (bool, int, float, str)
 
 
-def write(form: Expr, spans: bool = True, labels: bool = True) -> str:
+def write(form: Expr, spans: bool = True, components: bool = True) -> str:
     """Write an expression on one line."""
     if isinstance(form, str):
         return form
     head = [form.head] if form.head else []
-    parts = [*head, *_marks(form, spans, labels), *[write(arg, spans, labels) for arg in form.args]]
+    parts = [*head, *_marks(form, spans, components), *[write(arg, spans, components) for arg in form.args]]
     return f"({' '.join(parts)})"
 
 
-def _marks(form: Form, spans: bool, labels: bool) -> list[str]:
+def _marks(form: Form, spans: bool, components: bool) -> list[str]:
     marks = [f"@{form.span}"] if spans and form.span is not None else []
-    return [*marks, f"#{form.label}"] if labels and form.label else marks
+    return [*marks, f"#{form.component}"] if components and form.component else marks
 
 
-def write_tree(form: Expr, indent: int = 0, spans: bool = True, labels: bool = True) -> str:
+def write_tree(form: Expr, indent: int = 0, spans: bool = True, components: bool = True) -> str:
     """Write each statement on a line, with indented bodies."""
     lines: list[str] = []
-    _put(lines, form, indent, spans, labels)
+    _put(lines, form, indent, spans, components)
     return "\n".join(lines)
 
 
-def _put(lines: list[str], form: Expr, indent: int, spans: bool, labels: bool) -> None:
+def _put(lines: list[str], form: Expr, indent: int, spans: bool, components: bool) -> None:
     """Append the lines of a tree, each written once, however deep the tree is."""
     pad = "  " * indent
     if isinstance(form, str) or form.head not in TREES:
-        lines.append(pad + write(form, spans, labels))
+        lines.append(pad + write(form, spans, components))
         return
-    head = [form.head, *_marks(form, spans, labels)]
+    head = [form.head, *_marks(form, spans, components)]
     split = 0
     if form.head in ("fn", "if", "for", "while"):
         split = next((n for n, arg in enumerate(form.args) if _breaks(form.head, arg)), len(form.args))
-    lines.append(pad + "(" + " ".join(head + [write(arg, spans, labels) for arg in form.args[:split]]))
+    lines.append(pad + "(" + " ".join(head + [write(arg, spans, components) for arg in form.args[:split]]))
     for arg in form.args[split:]:
-        _put(lines, arg, indent + 1, spans, labels)
+        _put(lines, arg, indent + 1, spans, components)
     lines[-1] += ")"
 
 
@@ -176,9 +177,9 @@ class Core:
     form: Form = field(default_factory=lambda: Form("module", []), repr=False)
     lifted: Mapping[int, Span] = field(default_factory=dict, repr=False)
 
-    def write(self, spans: bool = True, labels: bool = True) -> str:
-        """Write the text again, with or without spans and the sites' labels."""
-        return write_tree(self.form, 0, spans, labels) + "\n"
+    def write(self, spans: bool = True, components: bool = True) -> str:
+        """Write the text again, with or without spans and the sites' components of addresses."""
+        return write_tree(self.form, 0, spans, components) + "\n"
 
     def standalone(self) -> str:
         """Write the text with its constants, `(const K E)`, for bug reports and for tests without Python.

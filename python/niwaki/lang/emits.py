@@ -58,7 +58,7 @@ def emit(body: Body, node: ast.Call) -> Expr:
     if not looks:
         return body.form("emit", expressions(body, node.args), node)
     for value in looks.values():
-        if any(part in body.unit.labels for part in ast.walk(value)):
+        if any(part in body.unit.components for part in ast.walk(value)):
             body.refuse("emit-color", value)
     makers = [maker for arg in node.args for maker in _makers(body, arg)]
     added: list[ast.Call] = []

@@ -44,19 +44,19 @@ def instrumented(function: FunctionType, hook: Any) -> FunctionType:
 def _compile(function: FunctionType) -> CodeType:
     unit = Program().unit(function)
     clone, memo = copied(unit.node)
-    labels: dict[Any, Any] = {}
-    for key, label in unit.labels.items():
+    components: dict[Any, Any] = {}
+    for key, component in unit.components.items():
         if isinstance(key, tuple):
-            pair = labels.setdefault(memo[key[0]], ["", ""])
-            pair[0 if key[1] == "loop" else 1] = label
+            pair = components.setdefault(memo[key[0]], ["", ""])
+            pair[0 if key[1] == "loop" else 1] = component
         else:
-            labels[memo[key]] = label
+            components[memo[key]] = component
     shown = {memo[scope.node]: n for n, scope in enumerate(functions(unit.scopes))}
     assert isinstance(clone, (ast.FunctionDef, ast.Lambda))
     arguments = clone.args
     arguments.defaults = [ast.copy_location(ast.Constant(None), default) for default in arguments.defaults]
     arguments.kw_defaults = [d and ast.copy_location(ast.Constant(None), d) for d in arguments.kw_defaults]
-    node = _Namer(labels, shown, clone).visit(clone)
+    node = _Namer(components, shown, clone).visit(clone)
     if isinstance(node, ast.FunctionDef):
         node.name, node.decorator_list = INNER, []
         inner: list[ast.stmt] = [node]
@@ -100,8 +100,8 @@ def _inner(code: CodeType, name: str) -> CodeType:
 class _Namer(ast.NodeTransformer):
     """Rewriter of calls, comparisons, loops, `break` and nested functions."""
 
-    def __init__(self, labels: dict[Any, Any], names: dict[Any, int], root: ast.AST) -> None:
-        self.labels = labels
+    def __init__(self, components: dict[Any, Any], names: dict[Any, int], root: ast.AST) -> None:
+        self.components = components
         self.names = names
         self.root = root
 
@@ -113,9 +113,9 @@ class _Namer(ast.NodeTransformer):
         return ast.fix_missing_locations(built)
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
-        label = self.labels.get(node, "")
+        component = self.components.get(node, "")
         self.generic_visit(node)
-        shown: Any = tuple(label) if isinstance(label, list) else label
+        shown: Any = tuple(component) if isinstance(component, list) else component
         return self._hook("call", [ast.Constant(shown), node.func, *node.args], node.keywords, node)
 
     def visit_Compare(self, node: ast.Compare) -> ast.AST:
@@ -131,28 +131,28 @@ class _Namer(ast.NodeTransformer):
         return node
 
     def visit_For(self, node: ast.For) -> ast.AST:
-        label = self.labels.get(node, "")
+        component = self.components.get(node, "")
         self.generic_visit(node)
-        node.iter = self._hook("loop", [ast.Constant(label), node.iter], [], node.iter)
+        node.iter = self._hook("loop", [ast.Constant(component), node.iter], [], node.iter)
         return node
 
     def visit_While(self, node: ast.While) -> ast.AST:
-        label = self.labels.get(node, "")
+        component = self.components.get(node, "")
         self.generic_visit(node)
         if node.orelse:
             return node
         leave = ast.Expr(self._hook("leave", [], [], node.test))
         test = ast.If(ast.UnaryOp(ast.Not(), node.test), [leave, ast.Break()], [])
-        items = self._hook("forever", [ast.Constant(label)], [], node.test)
+        items = self._hook("forever", [ast.Constant(component)], [], node.test)
         loop = ast.For(
             ast.Name("__nw_step__", ast.Store()), items, [ast.copy_location(test, node.test), *node.body], []
         )
         return ast.fix_missing_locations(ast.copy_location(loop, node))
 
     def visit_comprehension(self, node: ast.comprehension) -> ast.AST:
-        label = self.labels.get(node, "")
+        component = self.components.get(node, "")
         self.generic_visit(node)
-        node.iter = self._hook("loop", [ast.Constant(label), node.iter], [], node.iter)
+        node.iter = self._hook("loop", [ast.Constant(component), node.iter], [], node.iter)
         return node
 
     def visit_Break(self, node: ast.Break) -> Any:

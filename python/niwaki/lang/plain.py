@@ -260,13 +260,13 @@ class PlainRun:
         label, self.pending = self.pending or fallback, ""
         return "/".join([*self.path, label])
 
-    def sample(self, dist: Any) -> Any:
-        """Make a choice."""
+    def sample(self, dist: Any, words: Sequence[str] | None = None) -> Any:
+        """Make a choice; words name its numbers in the record of the run."""
         address = self.address("sample")
         self.check(dist)
         assert address not in self.choices_made
         if self.values is not None and address in self.values:
-            value = self.values[address]
+            value = self.own_value(address, self.values[address], words)
         elif self.seed is None:
             near = difflib.get_close_matches(address, list(self.values or ()), n=3, cutoff=0.0)
             raise InputError(
@@ -278,8 +278,23 @@ class PlainRun:
             except (ValueError, TypeError) as error:
                 raise ModelFault("bad-parameter", str(error), stack=self.stack()) from error
         self.priors.append(self.density(dist, value))
-        self.choices_made[address] = value
+        is_named = words is not None and type(value) is int and 0 <= value < len(words)
+        self.choices_made[address] = words[value] if words is not None and is_named else value
         return value
+
+    def own_value(self, address: str, value: Any, words: Sequence[str] | None) -> Any:
+        """Return a given value as the choice draws it: a word becomes its number."""
+        if not isinstance(value, str) or words is None:
+            return value
+        if value not in words:
+            message = f"{value!r} is not an option of the choice `{address}`"
+            raise ModelFault(
+                "unknown-option",
+                message,
+                stack=self.stack(),
+                help=f"its options are {', '.join(map(repr, words))}",
+            )
+        return words.index(value)
 
     def observe(self, dist: Any, value: Any) -> Any:
         """Score an observed value."""

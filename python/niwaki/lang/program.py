@@ -19,7 +19,7 @@ from niwaki.lang.deep import too_deep
 from niwaki.lang.marks import Host, underlying
 from niwaki.lang.names import Namespace, is_library, is_named_tuple, is_record_class, record_fields
 from niwaki.lang.scope import FunctionNode, Scope, Scopes, analyse, functions
-from niwaki.lang.sites import labels_of
+from niwaki.lang.sites import components_of
 from niwaki.words.distributions import Distribution
 from niwaki.words.memo import Memoised
 
@@ -34,7 +34,7 @@ class Unit:
     scopes: Scopes
     namespace: Namespace
     names: dict[Scope, str]
-    labels: dict[Any, str]
+    components: dict[Any, str]
 
     @property
     def name(self) -> str:
@@ -72,7 +72,7 @@ class Program:
             scopes = analyse(node)
             unit = Unit(function, file, node, scopes, namespace, {}, {})
             self._name(unit)
-            unit.labels = labels_of(unit.scopes, unit.namespace)
+            unit.components = components_of(unit.scopes, unit.namespace, file)
             self.units[function] = unit
             self.waiting.append(unit)
         return self.units[function]

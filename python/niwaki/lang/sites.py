@@ -17,7 +17,7 @@ the order of evaluation: `zc#1`, `wing#1`, `i[3]#1`. Four kinds are counted sepa
 ends of addresses, calls, loops, and memoised functions. Every site counts, whether or not its call can reach an effect.
 The head of a loop belongs to the activation around it, the test of a `while` to each of its iterations.
 
-A label has empty brackets for a loop, `i[]#1`; the run puts the index into the brackets.
+A component has empty brackets for a loop, `i[]#1`; the run puts the index into the brackets.
 """
 
 from __future__ import annotations
@@ -25,35 +25,39 @@ from __future__ import annotations
 import ast
 import re
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from types import FunctionType, ModuleType
 from typing import Any
 
 from niwaki import words
-from niwaki.lang import vocabulary
+from niwaki.errors.source import SourceFile
+from niwaki.lang import given, vocabulary
 from niwaki.lang.marks import underlying
 from niwaki.lang.names import MISSING, Namespace, hashable, is_library
 from niwaki.lang.scope import Scope, Scopes, Variable, default_expressions
 
+#: Words beside those that draw from a family whose calls can have a label.
+LABELLED = (words.sample, words.choose, words.emit, words.future, words.infer)
+
 CALLS_A_FUNCTION = {map: "map", filter: "filter", sorted: "sorted", min: "min", max: "max"}
 
 
-def labels_of(scopes: Scopes, namespace: Namespace) -> dict[Any, str]:
-    """Return the labels of all sites by syntax node; for `map` and the like by (node, "loop") and (node, "call")."""
-    namer = _Namer(scopes, namespace)
+def components_of(scopes: Scopes, namespace: Namespace, file: SourceFile) -> dict[Any, str]:
+    """Return the components of all sites by syntax node; for `map` and the like by (node, "loop"), (node, "call")."""
+    namer = _Namer(scopes, namespace, file)
     for scope in scopes.of.values():
         if scope.is_function:
             assert isinstance(scope.node, (ast.FunctionDef, ast.Lambda))
             namer.activation(
                 scope, scope.node.body if isinstance(scope.node.body, list) else [scope.node.body]
             )
-    return namer.labels
+    return namer.components
 
 
 class _Namer:
-    def __init__(self, scopes: Scopes, namespace: Namespace) -> None:
-        self.scopes, self.namespace = scopes, namespace
-        self.labels: dict[Any, str] = {}
+    def __init__(self, scopes: Scopes, namespace: Namespace, file: SourceFile) -> None:
+        self.scopes, self.namespace, self.file = scopes, namespace, file
+        self.components: dict[Any, str] = {}
         self.scope: Scope = scopes.root
         self.counts: Counter[tuple[str, str]] = Counter()
         self.target = ""
@@ -66,10 +70,10 @@ class _Namer:
             self.visit(part)
         self.scope, self.counts, self.target = outer
 
-    def label(self, key: Any, kind: str, name: str) -> None:
+    def count(self, key: Any, kind: str, name: str) -> None:
         seen = self.counts[kind, name]
         self.counts[kind, name] += 1
-        self.labels[key] = f"{name}#{seen}" if seen else name
+        self.components[key] = f"{name}#{seen}" if seen else name
 
     def visit(self, node: ast.AST) -> None:
         match node:
@@ -81,10 +85,10 @@ class _Namer:
                 self.target = ""
             case ast.For():
                 self.visit(node.iter)
-                self.label(node, "loop", f"{first_name(node.target)}[]")
+                self.count(node, "loop", f"{first_name(node.target)}[]")
                 self.activation(self.scope, node.body)
             case ast.While():
-                self.label(node, "loop", "while[]")
+                self.count(node, "loop", "while[]")
                 self.activation(self.scope, [node.test, *node.body])
             case ast.ListComp() | ast.GeneratorExp() | ast.SetComp():
                 self.generators(node, 0, self.scope)
@@ -105,7 +109,7 @@ class _Namer:
             return
         part = node.generators[number]
         self.visit(part.iter)
-        self.label(part, "loop", f"{first_name(part.target)}[]")
+        self.count(part, "loop", f"{first_name(part.target)}[]")
         outer = self.scope, self.counts
         self.scope, self.counts = self.scopes.of.get(node, scope), Counter()
         for test in part.ifs:
@@ -117,34 +121,54 @@ class _Namer:
         value = self.meaning(node.func)
         if not hashable(value):
             value = None
+        if self.takes_label(node.func, value):
+            given.take(node, self.file)
         if not isinstance(node.func, ast.Name):
             self.visit(node.func)
         for arg in (*node.args, *(keyword.value for keyword in node.keywords)):
             self.visit(arg)
         if value in vocabulary.DRAWS:
-            self.label(node, "end", self.target or vocabulary.DRAWS[value].family)
+            self.count(node, "end", self.target or vocabulary.DRAWS[value].family)
         elif value is words.sample:
-            self.label(node, "end", self.target or self.family(node.args[0] if node.args else None))
+            self.count(node, "end", self.target or self.family(node.args[0] if node.args else None))
         elif value is words.choose:
-            weighted = len(node.args) > 1 or bool(node.keywords)
-            self.label(node, "end", self.target or ("categorical" if weighted else "discrete_uniform"))
+            weights = any(keyword.arg == "weights" for keyword in node.keywords)
+            weighted = len(node.args) > 1 or weights or self.is_table(node.args)
+            self.count(node, "end", self.target or ("categorical" if weighted else "discrete_uniform"))
         elif value is words.emit:
-            self.label(node, "end", part_name(node) or "emit")
+            self.count(node, "end", part_name(node) or "emit")
         elif value in vocabulary.EFFECTS:
-            self.label(node, "end", vocabulary.EFFECTS[value])
+            self.count(node, "end", vocabulary.EFFECTS[value])
         elif value is words.infer:
-            self.label(node, "end", self.target or "infer")
+            self.count(node, "end", self.target or "infer")
         elif value is words.mem:
-            self.label(node, "memo", self.target or "mem")
+            self.count(node, "memo", self.target or "mem")
         elif value is words.future:
-            self.label(node, "call", self.callee(node.args[0]) if node.args else "apply")
+            self.count(node, "call", self.callee(node.args[0]) if node.args else "apply")
         elif value in CALLS_A_FUNCTION:
-            self.label((node, "loop"), "loop", f"{CALLS_A_FUNCTION[value]}[]")
+            self.count((node, "loop"), "loop", f"{CALLS_A_FUNCTION[value]}[]")
             key = next((keyword.value for keyword in node.keywords if keyword.arg == "key"), None)
             function = key if key is not None else (node.args[0] if node.args else None)
-            self.labels[(node, "call")] = self.callee(function) if function is not None else "apply"
+            self.components[(node, "call")] = self.callee(function) if function is not None else "apply"
         elif self.is_site(node.func, value):
-            self.label(node, "call", self.callee(node.func))
+            self.count(node, "call", self.callee(node.func))
+
+    def takes_label(self, node: ast.expr, value: Any) -> bool:
+        """Return whether the keyword `label` of a call is its label, and not an argument."""
+        if value in vocabulary.DRAWS or value in LABELLED:
+            return True
+        meaning = self.scopes.find(node.id, self.scope) if isinstance(node, ast.Name) else None
+        if isinstance(meaning, Scope):
+            return "label" not in meaning.parameters
+        if isinstance(value, FunctionType):
+            code = value.__code__
+            parameters = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
+            return self.is_site(node, value) and "label" not in parameters
+        return isinstance(meaning, Variable)
+
+    def is_table(self, args: Sequence[ast.expr]) -> bool:
+        """Return whether the first argument is a dict, as far as the text shows."""
+        return bool(args) and (isinstance(args[0], ast.Dict) or isinstance(self.meaning(args[0]), dict))
 
     def is_site(self, node: ast.expr, value: Any) -> bool:
         """Return whether a call runs the user's code: a built-in, a word that computes or a record's class does not."""
@@ -183,15 +207,20 @@ class _Namer:
 
     def meaning(self, node: ast.expr) -> Any:
         """Return the object of a name from outside of the model, or MISSING."""
-        if isinstance(node, ast.Name):
-            if self.scopes.find(node.id, self.scope) is not None:
-                return MISSING
-            return underlying(self.namespace.find(node.id))
-        if isinstance(node, ast.Attribute):
-            owner = self.meaning(node.value)
-            if isinstance(owner, ModuleType):
-                return underlying(getattr(owner, node.attr, MISSING))
-        return MISSING
+        return meaning(node, self.scope, self.scopes, self.namespace)
+
+
+def meaning(node: ast.expr, scope: Scope, scopes: Scopes, namespace: Namespace) -> Any:
+    """Return the object of a name from outside of the model, or MISSING."""
+    if isinstance(node, ast.Name):
+        if scopes.find(node.id, scope) is not None:
+            return MISSING
+        return underlying(namespace.find(node.id))
+    if isinstance(node, ast.Attribute):
+        owner = meaning(node.value, scope, scopes, namespace)
+        if isinstance(owner, ModuleType):
+            return underlying(getattr(owner, node.attr, MISSING))
+    return MISSING
 
 
 def part_name(node: ast.Call) -> str | None:

@@ -47,9 +47,14 @@ def _op(head: str, names: str = "", optional: str = "", variadic: bool = False, 
 
 
 def parameters_of(function: Any) -> tuple[Parameter, ...]:
-    """Return the parameters of a function or class, with their defaults."""
+    """Return the parameters of a function or class, with their defaults; a word's `label` is not an argument."""
     parameters = inspect.signature(function).parameters.values()
-    return tuple(Parameter(p.name, REQUIRED if p.default is p.empty else p.default) for p in parameters)
+    is_word = (getattr(function, "__module__", None) or "").startswith("niwaki.words.")
+    return tuple(
+        Parameter(p.name, REQUIRED if p.default is p.empty else p.default)
+        for p in parameters
+        if not is_word or p.name != "label"
+    )
 
 
 BUILTINS: dict[Any, Op] = {
@@ -108,7 +113,7 @@ _POLYGONS = (
     words.polygon_disc_area,
     words.polygon_inset,
 )
-_NUMBERS = (words.clip, words.lerp, words.sign)
+NUMBERS = (words.clip, words.lerp, words.sign)
 _SOFT = (
     words.softeq,
     words.soft_at_least,
@@ -136,7 +141,7 @@ def _shape(function: Any) -> Op:
 
 
 WORDS: dict[Any, Op] = {
-    **{function: _word(function, True) for function in (*_VECTORS, *_COLORS, *_POLYGONS, *_NUMBERS, *_SOFT)},
+    **{function: _word(function, True) for function in (*_VECTORS, *_COLORS, *_POLYGONS, *NUMBERS, *_SOFT)},
     **{function: _shape(function) for function in SHAPES},
 }
 

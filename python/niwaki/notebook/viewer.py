@@ -139,8 +139,8 @@ def stage() -> str:
 
 def _frame(result: Sample | Scene) -> bytes:
     if isinstance(result, Sample):
-        fit = "" if result.fit is None else f", {result.fit}"
-        scene, note = result.scene, f"log score {result.log_score:.2f}{fit}, {result.primitives} primitives"
+        fit = f"log score {result.log_score:.2f}" if result.fit is None else str(result.fit)
+        scene, note = result.scene, f"{fit}, {result.primitives} primitives"
     else:
         scene, note = result, f"{len(result)} parts"
     header, payload = shapes.shape(scene, "fine", role="result", is_flat=is_flat(scene), note=note)

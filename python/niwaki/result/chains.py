@@ -250,7 +250,7 @@ class MhInfo(Info):
         names = {leaf.name for leaf in self._leaves}
         if names and names <= {"block", "hmc_step", "nuts_step"}:
             # A block moves single discrete choices, and no lists of them.
-            stays = tuple if "block" in names else (bool, int, tuple)
+            stays = tuple if "block" in names else (bool, int, str, tuple)
             values = [item for sample in self.last for item in sample.choices.items()]
             if held := sorted(
                 {path for path, value in values if isinstance(value, stays) and is_discrete(value)}
@@ -292,5 +292,5 @@ class MhInfo(Info):
 
 
 def is_discrete(value: Any) -> bool:
-    """Whether a choice's value is a truth value, a whole number, or a list of these."""
-    return isinstance(value, (bool, int)) or (isinstance(value, tuple) and all(map(is_discrete, value)))
+    """Whether a choice's value is a truth value, a whole number, a word, or a list of these."""
+    return isinstance(value, (bool, int, str)) or (isinstance(value, tuple) and all(map(is_discrete, value)))

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from niwaki.errors.settings import bad
 from niwaki.lang.blame import Blame
+from niwaki.lang.labels import Labels
 from niwaki.result.diagnostics import Summaries
 
 S = TypeVar("S")
@@ -63,15 +64,18 @@ class Losses(NamedTuple):
         """The number of lost partial runs."""
         return sum(count for _, count in self.causes)
 
-    def __str__(self) -> str:
-        """The number of losses, the causes and a part; empty without losses."""
+    def text(self, labels: Labels) -> str:
+        """Return the number of losses, the causes and a part by its label; empty without losses."""
         if not self.causes:
             return ""
         by = ", ".join(f"{cause} ({count:,})" for cause, count in self.causes)
         texts = [f"lost on the way: {self.total:,} partial run{'' if self.total == 1 else 's'}, by {by}"]
         of = "" if self.looked_at == self.total else " that were looked at"
-        texts += [f"{entry} in {entry.runs} of {self.looked_at}{of}" for entry in self.blame[:1]]
+        texts += [f"{entry.text(labels)} in {entry.runs} of {self.looked_at}{of}" for entry in self.blame[:1]]
         return "; ".join(texts)
+
+    def __str__(self) -> str:
+        return self.text(Labels())
 
 
 def _losses(data: Any) -> Losses:

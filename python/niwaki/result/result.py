@@ -319,13 +319,28 @@ class Result(Sequence[Sample]):
         places = np.searchsorted(ends, (np.arange(n) + first) / n * ends[-1], side="right")
         return [self.samples[int(place)] for place in np.minimum(places, len(ends) - 1)]
 
-    def distribution(self) -> dict[Any, float]:
+    def distribution(self, choice: str | None = None) -> dict[Any, float]:
         """The probability of each value: exact for enumeration, else weighted shares of the samples.
 
+        Parameters
+        ----------
+        choice
+            The address of a choice, for the values of this choice, words of `choose` as words; `None` stands for runs
+            without the choice. The default is the value that the model returned.
+
+        Raises
+        ------
+        InputError
+            `no-address`: no sample has the choice; `no-runs`: an enumeration keeps the returned values alone.
+
+        Notes
+        -----
         The `repr` replaces values that cannot be keys of a dict, and different values that Python holds for equal:
         `True` and `1`, `0.0` and `-0.0`.
         """
-        if isinstance(self.info, EnumerationInfo):
+        if choice is not None:
+            rows = self._values_of(choice)
+        elif isinstance(self.info, EnumerationInfo):
             total = self.log_evidence or 0.0
             rows = [(value, math.exp(log - total)) for value, log in self.info.table]
         else:
@@ -343,6 +358,19 @@ class Result(Sequence[Sample]):
             for name, value in values.items()
         }
 
+    def _values_of(self, choice: str) -> list[tuple[Any, float]]:
+        """The values of a choice in all possible samples, with their weights."""
+        if not self.samples:
+            raise InputError("no-runs", detail=repr(self))
+        possible = [(s, float(w)) for s, w in zip(self.samples, self.weights, strict=True) if w > 0.0]
+        if not any(choice in sample.choices for sample, _ in possible):
+            known = [*dict.fromkeys(address for sample, _ in possible for address in sample.choices)]
+            nearest = ", ".join(f"`{address}`" for address in _engine.nearest(choice, known))
+            raise InputError(
+                "no-address", pattern=choice, name=self.model.name, nearest=nearest or "none: it has no choice"
+            )
+        return [(sample.choices.get(choice), weight) for sample, weight in possible]
+
     def export(
         self, path: str | PathLike[str], *, scale: float | None = None, fuse: float | None = None
     ) -> Path:
@@ -354,7 +382,7 @@ class Result(Sequence[Sample]):
         return self.best.save(path, **settings)
 
     def sheet(self, *, most: int | None = None, **settings: Any) -> Any:
-        """All samples side by side, or the best so many; best first, each with its number, from 1, and its scores.
+        """All samples side by side, or the best so many; best first, each with its number, from 1, and its fit.
 
         Where an image or a shadow is matched and no volume, they are seen from its camera.
         """
@@ -419,8 +447,11 @@ class Result(Sequence[Sample]):
 
 
 def _columns(chain: Sequence[Sample]) -> dict[str, NDArray[Any]]:
-    """The choices that all of these samples have, where their values are numbers: (draws,) or (draws, n)."""
-    rows = [sample.choices for sample in chain]
+    """The choices that all of these samples have, where their values are numbers: (draws,) or (draws, n).
+
+    A word is the place that it has among its options.
+    """
+    rows = [sample.places for sample in chain]
     columns: dict[str, NDArray[Any]] = {}
     for address in rows[0] if rows else ():
         if all(address in row for row in rows):
@@ -431,10 +462,11 @@ def _columns(chain: Sequence[Sample]) -> dict[str, NDArray[Any]]:
     return columns
 
 
-def caption(sample: Sample, number: int) -> str:
-    """Write a line for a contact sheet; `number` is the place of the sample in its result, from 1."""
+def caption(sample: Sample, number: int, with_score: bool = False) -> str:
+    """Write a line about a sample; `number` is its place in its result, from 1. Without a fit it has the log score."""
     fits = f"   {sample.fit}" if sample.fit is not None else ""
-    return f"#{number}{fits}   seed {sample.seed}   {sample.log_score:.2f}"
+    score = f"   log score {sample.log_score:.2f}" if with_score or sample.fit is None else ""
+    return f"#{number}{fits}   seed {sample.seed}{score}"
 
 
 def _settings_of_view(view: View) -> dict[str, Any]:

@@ -113,8 +113,15 @@ class Sample:
 
     @property
     def choices(self) -> dict[str, Any]:
-        """The choices by readable address; `run(choices=...)` repeats the run with them."""
+        """The choices by readable address, words of `choose` as words; `run(choices=...)` repeats the run with them."""
         return {choice.path: choice.value for choice in self._trace.choices}
+
+    def label(self, address: str) -> str:
+        """Return the name for people of a choice, a part, a call or an iteration: *Wing 1 › section 2 › width*.
+
+        Labels follow from the model's source, see the manual; only addresses can be typed.
+        """
+        return self.search.model.labels.label(address)
 
     def held(self, *patterns: str) -> dict[str, Any]:
         """List choices with their values, for the `hold` of another search.
@@ -231,6 +238,21 @@ class Sample:
     def families(self) -> dict[str, str]:
         """The distribution of every choice."""
         return {choice.path: choice.family for choice in self._trace.choices}
+
+    @property
+    def options(self) -> dict[str, tuple[str, ...]]:
+        """The options of every choice among words, in their order."""
+        return {choice.path: tuple(choice.words) for choice in self._trace.choices if choice.words is not None}
+
+    @property
+    def places(self) -> dict[str, Any]:
+        """The choices by readable address, with the place among the options, from 0, for each word."""
+        return {
+            choice.path: choice.value
+            if choice.words is None or choice.value not in choice.words
+            else choice.words.index(choice.value)
+            for choice in self._trace.choices
+        }
 
     @property
     def order(self) -> list[tuple[int, int]]:

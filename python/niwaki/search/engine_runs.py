@@ -68,7 +68,7 @@ def run_once(
         return fit_normals(search, search.method, seed, threads, watch, start)
     method, attached = engine_form(search.method)
     counted, clock = search.task.uncounted(), Clock()
-    with translated(search.model.name, f"seed={seed}"):
+    with translated(search.model.name, f"seed={seed}", model=search.model):
         runs, interrupted, counters = counted.search(
             method,
             seed,
@@ -149,7 +149,7 @@ def run_chains(
     text, attached = engine_form(method)
     counted = search.task.uncounted()
     part = None if stage is None else stage.engine
-    with translated(search.model.name, f"seed={seed}"):
+    with translated(search.model.name, f"seed={seed}", model=search.model):
         chains = _engine.Chains(
             counted, text, seed, attached=attached, start=start, threads=threads, checkpoint=part
         )
@@ -172,7 +172,7 @@ def run_trajectories(
 ) -> Result:
     """Run chains that follow the gradient."""
     counted, clock = search.task.uncounted(), Clock()
-    with translated(search.model.name, f"seed={seed}"):
+    with translated(search.model.name, f"seed={seed}", model=search.model):
         chains = _engine.Trajectories(
             counted, method.text()[0], seed, start=start, threads=threads, watch=watch
         )
@@ -192,7 +192,7 @@ def fit_normals(
 ) -> Result:
     """Fit normals to the model's distribution."""
     counted, clock = search.task.uncounted(), Clock()
-    with translated(search.model.name, f"seed={seed}"):
+    with translated(search.model.name, f"seed={seed}", model=search.model):
         normals = _engine.Normals(counted, method.text()[0], seed, start=start, threads=threads, watch=watch)
     info = ViInfo.of(search, seed, normals)
     result = _result_of_draws(counted, info, normals.interrupted, clock)
@@ -236,7 +236,7 @@ def regrow(
         expected = "a run that has ended"
         raise bad("sample", sample, expected, "more time or particles")
     clock, single = Clock(), replace(search, runs=1, keep="all", polish=None)
-    with translated(search.model.name, f"seed={seed}"):
+    with translated(search.model.name, f"seed={seed}", model=search.model):
         runs = search.task.regrow(sample._run, part, particles, power, seed, threads)
     seconds = clock.read()
     return Result(single, [Sample(run, single, seed, *seconds) for run in runs], seed, seconds=seconds)

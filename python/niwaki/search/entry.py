@@ -302,11 +302,23 @@ def explain(
     -------
     dict
         `activations`: the calls and loop iterations, each before those it makes, as (label, function, depth, number of
-        the caller); `home`: the number of the activation with the choice; `path`, `old` and `new`; `runs`: by strategy
+        the caller); `home`: the number of the activation with the choice; `path` and `label` of the choice, `old` and
+        `new`; `runs`: by strategy
         the events ("invoked", "unwound", "skipped", "made" or "removed", with the number of the activation), and
         whether the run came to its end. `niwaki.draw.reuse.draw` draws the trace.
     """
     model = as_model(model)
     prepared = task(model, args, kwargs, (), max_steps)
     with translated(model.name, f"seed={seed}"):
-        return _engine.explain(prepared, check_seed(seed), choice)
+        report = _engine.explain(prepared, check_seed(seed), choice)
+    addresses: list[str] = []
+    for component, _, _, caller in report["activations"]:
+        # The model itself is no component of addresses.
+        around = addresses[caller] if caller is not None and caller < len(addresses) else None
+        addresses.append("" if around is None else f"{around}/{component}".lstrip("/"))
+    shown = [model.labels.short(address) if address else model.name for address in addresses]
+    report["activations"] = [
+        (label, *rest) for label, (_, *rest) in zip(shown, report["activations"], strict=True)
+    ]
+    report["label"] = model.labels.label(report["path"])
+    return report

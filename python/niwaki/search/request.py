@@ -32,6 +32,7 @@ from niwaki.errors.settings import MAX_MEMORY, MAX_STEPS, bad, count, is_whole
 from niwaki.inputs.modules import files, public, run_files
 from niwaki.lang.compiled import arguments, task
 from niwaki.lang.core import Core
+from niwaki.lang.labels import Labels
 from niwaki.lang.models import Model, as_model
 from niwaki.methods import Forward, Guide, Method, Mh
 from niwaki.once import cached_property
@@ -58,7 +59,7 @@ class StoredModel(Model[..., Any]):
     """Model that was read from data: its core form, without its Python function."""
 
     def __init__(self, core: Core, name: str) -> None:
-        self.name, self._core, self._program = name, core, None
+        self.name, self._core, self._program, self._labels = name, core, None, Labels()
         self.__name__ = name
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:

@@ -85,6 +85,9 @@ Threads = Annotated[
         "--threads", metavar="N", help="Number of threads; results do not depend on it. Default: all cores."
     ),
 ]
+Verbose = Annotated[
+    bool, typer.Option("--verbose", "-v", help="Print log scores and the steps of the search, too.")
+]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON. Files are then written only with -o.")]
 
 Megabytes = Annotated[

@@ -32,7 +32,7 @@ def explain(
     draw.reuse.draw(report, place)
     total = len(report["activations"])
     old, new = (draw.reuse.value_text(report[key]) for key in ("old", "new"))
-    print(f"{report['path']}: {old} becomes {new}; {total} calls, seed {seed}")
+    print(f"{report['label']} ({report['path']}): {old} becomes {new}; {total} calls, seed {seed}")
     print(f"{'':<8}" + "".join(f"{word:>20}" for word in draw.reuse.WORDS.values()))
     for name, (steps, _) in report["runs"].items():
         print(f"{name:<8}" + "".join(f"{n:>20}" for n in draw.reuse.counts(steps, total).values()))

@@ -29,7 +29,7 @@ from niwaki.shell import (
     selection,
     settings,
 )
-from niwaki.shell.app import Threads, app, counted
+from niwaki.shell.app import Threads, Verbose, app, counted
 from niwaki.shell.clock import Clock
 from niwaki.shell.progress import progress_line
 from niwaki.targets.asks import DRAWN
@@ -47,6 +47,7 @@ def grow(
     flags: formats.Flags,
     images: pictures.Pictures,
     threads: Threads = None,
+    verbose: Verbose = False,
     *,
     method_settings: Annotated[
         dict[str, Any],
@@ -64,8 +65,8 @@ def grow(
             context, source.resume, "grow", Contents.of_data
         )
         with held_folder(source.resume) as folder:
-            result = _run(search, reference, threads, stored, clock)
-            _end(result, reference, folder, contents, out, stored, clock)
+            result = _run(search, reference, threads, stored, clock, verbose)
+            _end(result, reference, folder, contents, out, stored, clock, verbose)
         return
     with clock.part("compile"):
         reference, arguments = resume.model_of(context, source)
@@ -95,8 +96,8 @@ def grow(
             else:
                 if folder is not None:
                     checkpoint = resume.new_checkpoint(folder, "grow", reference, **asdict(contents))
-                result = _run(search, reference, threads, checkpoint, clock)
-        _end(result, reference, folder, contents, out, checkpoint, clock, single_file)
+                result = _run(search, reference, threads, checkpoint, clock, verbose)
+        _end(result, reference, folder, contents, out, checkpoint, clock, verbose, single_file)
 
 
 def _run(
@@ -105,10 +106,11 @@ def _run(
     threads: int | None,
     checkpoint: nw.Checkpoint | None,
     clock: Clock,
+    verbose: bool,
 ) -> nw.Result:
     """Run the search, with a line about its progress."""
     with clock.part("search"):
-        with progress_line(reference.name) as progress, resume.report_interrupt(checkpoint, "grow"):
+        with progress_line(reference.name, verbose) as progress, resume.report_interrupt(checkpoint, "grow"):
             return search.run(threads=threads, progress=progress, checkpoint=checkpoint)
 
 
@@ -161,6 +163,7 @@ def _end(
     out: folders.Destination,
     checkpoint: nw.Checkpoint | None,
     clock: Clock,
+    verbose: bool,
     single_file: Path | None = None,
 ) -> None:
     """Write the files to the folder or the single file, if there is one, and print a summary."""
@@ -179,7 +182,7 @@ def _end(
     if out.as_json:
         print(json.dumps({"runs": [shell.run_files.numbers(sample) for sample in result]}))
     elif place is not None:
-        _summary(result, place, clock)
+        _summary(result, place, clock, verbose)
     if result.interrupted:
         if folder is not None:
             print(resume.interrupt_message(folder, "grow"), file=out.stream)
@@ -214,12 +217,17 @@ def _write(
                 files.write(sample, folder, number)
 
 
-def _summary(result: nw.Result, place: Path, clock: Clock) -> None:
-    if isinstance(result.info, results.info.ImproveInfo) and len({sample.seed for sample in result}) == 1:
+def _summary(result: nw.Result, place: Path, clock: Clock, verbose: bool) -> None:
+    if (
+        verbose
+        and isinstance(result.info, results.info.ImproveInfo)
+        and len({sample.seed for sample in result}) == 1
+    ):
         print(result.info)
-    if losses := str(getattr(result.info, "losses", "")):
-        print(losses)
+    losses = getattr(result.info, "losses", None)
+    if losses is not None and losses.causes:
+        print(losses.text(result.model.labels))
     for number, sample in enumerate(result, 1):
-        print(f"{results.caption(sample, number)}   {counted(sample.primitives, 'primitive')}")
+        print(f"{results.caption(sample, number, verbose)}   {counted(sample.primitives, 'primitive')}")
     print(f"best: #{result.samples.index(result.best) + 1}; {folders.location(place)}")
     print(clock)

@@ -89,9 +89,10 @@ def read(flags: Flags) -> tuple[list[str], dict[str, Any]]:
         try:
             values[address] = literal_eval(value)
         except (ValueError, SyntaxError, RecursionError, MemoryError):
-            raise bad(
-                f"--hold {address}", value, "a number, a truth value or a list", "such a value: 2.5, True"
-            ) from None
+            if not value[:1].isalpha():
+                expected = "a word, a number, a truth value or a list"
+                raise bad(f"--hold {address}", value, expected, "such a value: hip, 2.5, True") from None
+            values[address] = value
     return [text for text in hold if "=" not in text], values
 
 

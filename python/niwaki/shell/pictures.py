@@ -52,7 +52,7 @@ def impossible(search: nw.Search, folder: Path, quick: bool) -> str:
     place = folder / IMPOSSIBLE
     draft: dict[str, Any] = {"size": DRAFT, "samples": 1} if quick else {"samples": 4}
     draw.picture.save_image(lambda: draw.picture.picture(draw.scene.Scene(parts), **draft), place)
-    shown = ", ".join(f"`{address}`" for address in broken[:3])
+    shown = ", ".join(search.model.labels.label(address) for address in broken[:3])
     more = f" and {len(broken) - 3} more" if len(broken) > 3 else ""
     return f"{place} shows such a run; the parts in red make it impossible: {shown}{more}"
 

@@ -39,12 +39,20 @@ def status_line(title: str, keeps_best: bool = True) -> Iterator[Callable[[str],
 
 
 @contextmanager
-def progress_line(name: str) -> Iterator[Callable[[result.Progress], None]]:
-    """Show the progress of `grow`."""
+def progress_line(name: str, verbose: bool) -> Iterator[Callable[[result.Progress], None]]:
+    """Show the progress of `grow`: the fit of the best so far, and with `verbose` its log score."""
+    best, fit = -math.inf, ""
+
+    def text(now: result.Progress) -> str:
+        nonlocal best, fit
+        if now.sample is not None and now.best > best:
+            best, fit = now.best, str(now.sample.fit or "")
+        steps = f"run {now.run + 1} of {now.runs}, step {now.done}, {now.ended} ended"
+        scored = verbose or (now.sample is not None and not fit)
+        return ", ".join([steps, *([fit] if fit else []), *([f"best {_best(now)}"] if scored else [])])
+
     with status_line(f"growing {name}") as show:
-        yield lambda now: show(
-            f"run {now.run + 1} of {now.runs}, step {now.done}, {now.ended} ended, best {_best(now)}"
-        )
+        yield lambda now: show(text(now))
 
 
 @contextmanager

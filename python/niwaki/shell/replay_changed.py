@@ -55,7 +55,7 @@ class Changed:
         ):
             if addresses:
                 more = f" and {len(addresses) - SHOWN} more" if len(addresses) > SHOWN else ""
-                listed = ", ".join(f"`{address}`" for address in addresses[:SHOWN])
+                listed = ", ".join(map(self.reference.model.labels.label, addresses[:SHOWN]))
                 lines.append(f"  {label}: {listed}{more}")
         return "\n".join(lines)
 

@@ -111,17 +111,23 @@ def _names(sample: Sample) -> dict[str, Any]:
     }
 
 
-def _choice_value(value: Any) -> Any:
-    """Read the value of a choice from JSON."""
+#: The families of which a choice can be among words. A string is the word there, and else a number that is not finite.
+_OF_WORDS = ("categorical", "discrete_uniform")
+
+
+def _choice_value(value: Any, family: str | None) -> Any:
+    """Read the value of a choice from JSON; `family` is that of its distribution, if the file has it."""
     if isinstance(value, list):
-        return tuple(_choice_value(part) for part in value)
+        return tuple(_choice_value(part, family) for part in value)
     if isinstance(value, dict):
         raise Unfit("$", "the value of a choice", shown(value))
-    if not isinstance(value, str):
+    if not isinstance(value, str) or family in _OF_WORDS:
         return value
     try:
         return float(value)
     except ValueError:
+        if family is None:
+            return value
         raise Unfit("$", "the value of a choice", shown(value)) from None
 
 
@@ -202,7 +208,7 @@ def choices(run: dict[str, Any], number: int, path: str | PathLike[str]) -> dict
     try:
         for place, part in enumerate(run["choices"]):
             with inside(f".runs[{number}].choices[{place}].value"):
-                values[part["address"]] = _choice_value(part["value"])
+                values[part["address"]] = _choice_value(part["value"], part.get("family"))
     except Unfit as error:
         raise InputError("bad-run-file", path=path, reason=str(error)) from error
     return values

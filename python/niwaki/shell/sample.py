@@ -168,15 +168,19 @@ def _plain(value: Any) -> Any:
 
 
 def _summary(result: nw.Result, place: Path) -> None:
-    print(f"{'site':<40}{'proposals':>12}{'accepted':>10}")
-    for name, row in list(result.acceptance.items())[:12]:
-        print(f"{name:<40}{row.proposed:>12}{row.rate:>10.2f}")
+    labels = result.model.labels
+    rows = list(result.acceptance.items())[:12]
+    shown = [labels.site(row.function, row.site) for _, row in rows]
+    wide = max([len("choice"), *map(len, shown)]) + 3
+    print(f"{'choice':<{wide}}{'site':<36}{'proposals':>12}{'accepted':>10}")
+    for label, (name, row) in zip(shown, rows, strict=True):
+        print(f"{label:<{wide}}{name:<36}{row.proposed:>12}{row.rate:>10.2f}")
         if row.proposed >= 100 and row.outside == row.proposed:
             print(f"warning: all proposals for `{name}` were outside its support", file=sys.stderr)
     counters = result.counters
     if counters["many_proposed"]:
         share = counters["many_accepted"] / counters["many_proposed"]
-        print(f"{'blocks and regenerated calls':<40}{counters['many_proposed']:>12}{share:>10.2f}")
+        print(f"{'blocks and regenerated calls':<{wide + 36}}{counters['many_proposed']:>12}{share:>10.2f}")
     rate = counters["proposals"] / max(result.cpu_seconds, 1e-9)
     print(f"{counters['proposals']} proposals, {rate:,.0f} a second of processor time; seed {result.seed}")
     print(f"best: log score {result.best.log_score:.2f}; {len(result)} samples; {folders.location(place)}")

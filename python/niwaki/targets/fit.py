@@ -11,13 +11,14 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from math import ceil, floor, prod
+from math import prod
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from niwaki import _engine
+from niwaki.shares import coverage
 
 if TYPE_CHECKING:
     from niwaki.draw.scene import Scene
@@ -49,9 +50,7 @@ class Fit:
         return cls(both / max(int(target.sum()), 1), (filled - both) / max(filled, 1))
 
     def __str__(self) -> str:
-        # Rounded to the worse side: only all is 100 %, and only nothing is 0 %.
-        covered, outside = floor(1000 * self.covered + 1e-9), ceil(1000 * self.outside - 1e-9)
-        return f"{covered / 10:.1f} % covered, {outside / 10:.1f} % outside"
+        return coverage(self.covered, self.outside)
 
 
 def fit(score: Score, scene: Scene) -> Fit | None:

@@ -71,6 +71,7 @@ def query(key: str, value: Any) -> None:
 def emit(
     *shapes: Any,
     name: str | None = None,
+    label: str | None = None,
     color: Sequence[float] | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
@@ -83,6 +84,8 @@ def emit(
         Shapes, or lists and tuples of shapes.
     name
         The part's name in addresses and files, instead of `emit`: a constant of letters, digits, `_` and `-`.
+    label
+        The part's name for people, a constant text; by default its `name`, or its first shape.
     color
         `(r, g, b)` in [0, 1], for shapes that have no colour yet.
     metalness
@@ -95,7 +98,7 @@ def emit(
     runner("emit").emit([worn(shape, options) for shape in flatten(shapes)] if options else shapes)
 
 
-def future(function: Callable[..., T], *args: Any) -> T:
+def future(function: Callable[..., T], *args: Any, label: str | None = None) -> T:
     """Postpone a call, and return a future of its value. Futures may run in any order.
 
     Parameters
@@ -104,6 +107,8 @@ def future(function: Callable[..., T], *args: Any) -> T:
         A model function.
     args
         The function's arguments, by position.
+    label
+        The call's name for people, a constant text; by default the function's name.
 
     Returns
     -------
@@ -125,7 +130,9 @@ def force(promise: T) -> T:
     return value
 
 
-def infer(model: Callable[..., Any], method: Any, *args: Any, keep: str = "sample") -> Any:
+def infer(
+    model: Callable[..., Any], method: Any, *args: Any, keep: str = "sample", label: str | None = None
+) -> Any:
     """Search another model inside this model, and return its value (dissertation 2.3.1).
 
     The outer run gets only the value, not the choices, factors and shapes of the inner model. The value depends on the
@@ -142,6 +149,8 @@ def infer(model: Callable[..., Any], method: Any, *args: Any, keep: str = "sampl
         The inner model's arguments, by position.
     keep
         "sample": the value of a sample, drawn by weight; "best": the value of the sample with the best log score.
+    label
+        The name of the seed's choice for people, a constant text.
 
     Returns
     -------

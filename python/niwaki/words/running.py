@@ -15,8 +15,8 @@ from niwaki.errors import InputError
 class Runner(Protocol):
     """Interface of a plain-Python run, with a method for each effect."""
 
-    def sample(self, dist: Any) -> Any:
-        """Make a choice."""
+    def sample(self, dist: Any, words: Sequence[str] | None = None) -> Any:
+        """Make a choice; words name its numbers in the record of the run."""
         ...
 
     def observe(self, dist: Any, value: Any) -> Any:

@@ -294,6 +294,7 @@ export interface Outcome {
   covered: number | null;
   outside: number | null;
   note: string;
+  fit: string;
 }
 
 /** A held part: its pattern, and the values of its held choices. */
@@ -324,6 +325,7 @@ export interface Searching {
   done: number;
   best: number | null;
   seconds: number;
+  fit: string;
 }
 
 /** The state that every window shows; a patch has some of its fields. */
@@ -364,11 +366,12 @@ export interface Patch {
   changes: Record<string, any>;
 }
 
-/** A choice of a result: its value, and the range of its slider if it has a slider. */
+/** A choice of a result: its value; its options if they are words, else the range of its slider if it has one. */
 export interface ChoiceInfo {
   address: string;
   family: string;
   value: any;
+  options: string[];
   low: number | null;
   high: number | null;
   is_whole: boolean;
@@ -388,6 +391,7 @@ export interface Described {
   key: Key | null;
   choices: ChoiceInfo[];
   parts: PartInfo[];
+  labels: Record<string, [string, string]>;
 }
 
 /** The header of a frame with a mesh: see `niwaki.studio.worker.shapes`. */

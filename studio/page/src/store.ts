@@ -186,6 +186,15 @@ export function avoid(solid: TargetAsk): void {
   ask({ obstacles: [...obstacles, solid] });
   activeObject.value = { name: `obstacle ${obstacles.length}`, mode: "translate" };
 }
+/** The label of an address; the address itself where the described result has no label of it. */
+export const labelOf = (address: string): string => described.value?.labels?.[address]?.[0] ?? address;
+/** The label of an address as it is read below the label of a call around it. */
+export function labelBelow(address: string, call: string): string {
+  const [whole, last] = described.value?.labels?.[address] ?? [address, address.split("/").pop()!];
+  const head = `${labelOf(call)} › `;
+  if (call !== "" && whole.startsWith(head)) return whole.slice(head.length);
+  return address.slice(call === "" ? 0 : call.length + 1).includes("/") ? whole : last;
+}
 export function select(address: string | null): void {
   part.value = address;
   level.value = address === null ? null : address.split("/").slice(0, -1).join("/");

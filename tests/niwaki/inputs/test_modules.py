@@ -76,7 +76,7 @@ def test_a_file_replaces_no_module(folder: Path, name: str) -> None:
     assert again.best.log_score == result.best.log_score and again.best.choices == result.best.choices
 
 
-@pytest.mark.parametrize("name", ["json", "trimesh"])
+@pytest.mark.parametrize("name", ["json", pytest.param("trimesh", marks=pytest.mark.soak)])
 def test_every_command_runs_such_a_file(folder: Path, name: str) -> None:
     place, out = folder / f"{name}.py", folder / "out"
     # TIFF files are read in a separate process, here while the model file runs.

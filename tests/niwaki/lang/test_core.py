@@ -76,7 +76,7 @@ def test_literals_read_back() -> None:
 def test_labels_and_spans_can_be_left_out() -> None:
     core = load(SHIP, "ship.py").core()
     assert "@" not in core.write(spans=False)
-    assert "#" not in core.write(labels=False)
+    assert "#" not in core.write(components=False)
     assert core.parameters == ("n",) and core.required == 0
 
 

@@ -82,6 +82,29 @@ def test_derivatives_of_an_arm_follow_from_its_angle_and_length() -> None:
 
 
 @nw.model
+def walled():
+    """A wall on its own choice, with a window on another."""
+    x = gaussian(0.0, 1.0)
+    across, up = uniform(-1.0, 1.0), uniform(0.5, 1.5)
+    emit(box((x, 1.0, 0.0), (4.0, 2.0, 0.2)) - box((x + across, up, 0.0), (0.5, 0.5, 1.0)), name="wall")
+
+
+def test_a_hole_that_is_dragged_arrives_and_its_wall_stays() -> None:
+    sample = nw.run(walled, seed=1).best
+    x, across, up = (sample.choices[name] for name in ("x", "across", "up"))
+    middle = np.array([x + across, up, 0.0])
+    answer = sample.drag("wall", to=(x, 1.2, 0.0), grab=tuple(middle), hold="x").best
+    assert answer is not None and answer.distance < 1e-3
+    assert set(answer.changed) <= {"across", "up"}
+    assert abs(answer.sample.choices["across"]) < 1e-3 and abs(answer.sample.choices["up"] - 1.2) < 1e-3
+    low, high = answer.sample.scene.parts[0].shapes[0].leaves()[1].aabb()
+    np.testing.assert_allclose(np.add(low, high) / 2, (x, 1.2, 0.0), atol=2e-3)
+    # Without a point the wall itself is held, and only its own choice moves it.
+    moved = sample.drag("wall", to=(x + 1.0, 1.0, 0.0)).best
+    assert moved is not None and moved.distance < 1e-3 and "x" in moved.changed
+
+
+@nw.model
 def post():
     """Two choices move the box along x, of deviations 1 and 2; one moves it along z."""
     a = gaussian(0.0, 1.0)

@@ -16,7 +16,7 @@ from niwaki.shell import resume
 from niwaki.shell.main import app
 from typer.testing import CliRunner
 
-GROW = ["grow", "gnarly-tree", "--rounds", "80", "--seed", "5", "--voxel", "0.5", "--no-picture"]
+GROW = ["grow", "gnarly-tree", "--rounds", "30", "--seed", "5", "--voxel", "0.5", "--no-picture"]
 
 
 def run(*words: Any) -> Any:

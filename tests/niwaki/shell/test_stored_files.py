@@ -243,7 +243,7 @@ def grown(folder: Path, *words: str) -> None:
 
 
 #: The suite makes one trial of so many; `make soak` makes all.
-STRIDE = 7
+STRIDE = 15
 
 
 @pytest.mark.parametrize("former", [False, True])

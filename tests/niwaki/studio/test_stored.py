@@ -192,7 +192,14 @@ def try_faults(
     return count
 
 
-def test_files_of_results_are_whole_on_a_disk_that_fails(session, tmp_path):
+@pytest.mark.parametrize(
+    "kinds",
+    [
+        ("json", "glb", "colouringsvg"),
+        pytest.param(("stl", "obj", "colouringjson", "colouringtoml"), marks=pytest.mark.soak),
+    ],
+)
+def test_files_of_results_are_whole_on_a_disk_that_fails(kinds, session, tmp_path):
     def prepare(folder: Path) -> None:
         shutil.copytree(session / "runs", folder / "runs")
 
@@ -209,7 +216,7 @@ def test_files_of_results_are_whole_on_a_disk_that_fails(session, tmp_path):
 
         return attempt
 
-    for kind in ("json", "glb", "stl", "obj", "colouringjson", "colouringtoml", "colouringsvg"):
+    for kind in kinds:
         (tmp_path / kind).mkdir()
         sizes = set()
 

@@ -2,6 +2,7 @@
 //!
 //! - `mesh.rs`    triangles with normals
 //! - `boxes.rs`   rounded boxes, tapered or not
+//! - `extrude.rs` rounded prisms over polygons, twisted and tapered
 //! - `revolve.rs` cylinders and cones with rounded rims
 //! - `limb.rs`    smooth tubes with a domed end
 //! - `segment.rs` smooth tubes with a collar on the parent's bark
@@ -9,6 +10,7 @@
 
 pub(crate) mod boxes;
 pub(crate) mod crease;
+pub(crate) mod extrude;
 pub(crate) mod limb;
 mod mesh;
 pub(crate) mod revolve;

@@ -18,7 +18,12 @@ pub fn contains(shape: &Shape, point: Vec3) -> bool {
 
 /// True when a closed mesh contains `point`.
 fn inside_mesh(mesh: &TriMesh, point: Vec3) -> bool {
-    let angle: f64 = mesh.corners().map(|t| solid_angle(t.map(|p| p - point))).sum();
+    winds_around(mesh.corners(), point)
+}
+
+/// True when closed triangles wind around `point`.
+pub(crate) fn winds_around(triangles: impl Iterator<Item = [Vec3; 3]>, point: Vec3) -> bool {
+    let angle: f64 = triangles.map(|t| solid_angle(t.map(|p| p - point))).sum();
     angle.abs() > TAU
 }
 

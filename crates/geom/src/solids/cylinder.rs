@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 /// Default number of sides (dissertation chapter 5's coarse mesh).
 pub(super) const SIDES: usize = 8;
 /// Rounding of rims whose shape gives none, as a share of the smaller of the radius and the half length.
-const BEVEL: f64 = 0.12;
+pub(super) const BEVEL: f64 = 0.12;
 
 /// A prism along +y over an inscribed polygon whose first vertex points to +z.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]

@@ -100,6 +100,14 @@ pub trait Measured {
     fn fine(&self, bevel: Option<f64>) -> FineMesh;
 }
 
+/// The frame of a solid that was drawn about an origin of its own: there, or in the middle of the solid where the origin is outside.
+pub(crate) fn frame_within<M: Measured>(solid: &M, placement: &Placement) -> Placement {
+    let Ok(around) = solid.aabb(placement) else { return *placement };
+    let origin = placement.translation;
+    let is_within = around.contains(&Aabb { low: origin, high: origin });
+    Placement { translation: if is_within { origin } else { around.center() }, ..*placement }
+}
+
 /// The checks of measures, with the sentences of their errors (`bad-shape`). They name the kind of solid.
 #[derive(Clone, Copy, Debug)]
 pub struct Checks {

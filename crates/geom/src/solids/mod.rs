@@ -12,17 +12,22 @@ pub mod word;
 
 pub mod arch;
 pub mod cuboid;
+pub mod cut;
 pub mod cylinder;
 pub mod ellipse;
 pub mod ellipsoid;
+pub mod extrusion;
+pub mod hull;
 pub mod limb;
 pub mod measured;
 pub mod mesh;
 mod plate;
 pub mod primitive;
+pub mod revolution;
 pub mod segment;
 pub mod shape;
 pub mod stroke;
+pub mod sweep;
 #[cfg(test)]
 pub(crate) mod testing;
 pub mod torus;
@@ -31,6 +36,7 @@ pub mod words;
 
 use crate::bounds::Aabb;
 use crate::convex::Coarse;
+use crate::cut::Cut;
 use crate::error::GeomError;
 use crate::fine::FineMesh;
 use crate::mesh::TriMesh;
@@ -41,11 +47,15 @@ pub use cuboid::{Cuboid, TaperedCuboid};
 pub use cylinder::{Cylinder, TaperedCylinder};
 pub use ellipse::Ellipse;
 pub use ellipsoid::Ellipsoid;
+pub use extrusion::Extrusion;
+pub use hull::Hull as PointHull;
 pub use limb::Limb;
 pub use measured::{Checks, Form, Measured, Tone};
+pub use revolution::Revolution;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 pub use stroke::Stroke;
+pub use sweep::Sweep;
 pub use torus::Torus;
 pub use wedge::Wedge;
 use word::{Called, Description, Either};
@@ -166,6 +176,16 @@ solids! {
     Torus(Torus) [torus::TorusWord];
     /// A half ring on two legs.
     Arch(Arch) [arch::ArchWord];
+    /// A prism over any polygon.
+    Extrusion(Arc<Extrusion>) [extrusion::ExtrudeWord];
+    /// What a line encloses with an axis about which it is turned.
+    Revolution(Arc<Revolution>) [revolution::RevolveWord];
+    /// A polygon drawn along a path.
+    Sweep(Arc<Sweep>) [sweep::SweepWord];
+    /// The convex hull of points.
+    Hull(Arc<PointHull>) [hull::HullWord];
+    /// A solid cut from others, by operators.
+    Cut(Arc<Cut>);
 }
 
 impl Solid {

@@ -7,6 +7,7 @@ use super::measured::{Form, Tone, no_inside};
 use super::{Cuboid, Solid};
 use crate::bounds::Aabb;
 use crate::convex::{Convex, is_aligned};
+use crate::cut::{Cut, Operation};
 use crate::error::{GeomError, bad_shape};
 use crate::fine::FineMesh;
 use crate::look::{Look, Paint};
@@ -115,12 +116,26 @@ impl Shape {
         solid.check()?;
         placement.check()?;
         let paint = Paint::of(look)?;
+        // The solids of a cut are in the world, so that they keep their numbers and their places for gradients.
+        let (solid, placement) = match solid {
+            Solid::Cut(cut) if placement != Placement::IDENTITY => {
+                (Solid::Cut(Arc::new(cut.placed(&placement)?)), Placement::IDENTITY)
+            }
+            solid => (solid, placement),
+        };
         let (mut width, mut number) = (f64::INFINITY, Number::NONE);
         let aabb = match solid.form() {
             Form::Box | Form::Flat => solid.aabb(&placement)?,
             Form::Mesh => {
                 number = Number::new();
-                solid.aabb(&placement)?
+                match solid {
+                    // Only its surface has its box.
+                    Solid::Cut(_) => {
+                        let mesh = solid.mesh(&placement)?;
+                        store::mesh(&number, || mesh).aabb()
+                    }
+                    _ => solid.aabb(&placement)?,
+                }
             }
             Form::Convex => {
                 let Some(hull) = solid.hull(&placement) else { return no_inside(solid.kind()) };
@@ -139,6 +154,72 @@ impl Shape {
         let bits = |turn: &Mat3| turn.columns.map(|column| column.to_array().map(f64::to_bits));
         let rotation = (bits(&rotation) != bits(&Mat3::IDENTITY)).then(|| Box::new(rotation));
         Ok(Shape(Arc::new(Inner { solid, translation, rotation, paint, aabb, width, number })))
+    }
+
+    /// Applies an operation to two solids. The look is that of the first, without its bevel.
+    ///
+    /// # Errors
+    /// `bad-shape` for a flat shape, too many solids, and if nothing is left.
+    pub fn combined(operation: Operation, a: &Shape, b: &Shape) -> Result<Shape, GeomError> {
+        let cut = Cut::new(operation, a, b)?;
+        Shape::new(Solid::Cut(Arc::new(cut)), Placement::IDENTITY, &Look { bevel: None, ..a.look() })
+    }
+
+    /// The shape with another placement after its own.
+    pub(crate) fn placed_after(&self, placement: &Placement) -> Result<Shape, GeomError> {
+        Shape::new(self.solid().clone(), placement.after(&self.placement()), &self.look())
+    }
+
+    /// The tree of a cut; `None` for any other shape.
+    pub fn cut(&self) -> Option<&Cut> {
+        match &self.0.solid {
+            Solid::Cut(cut) => Some(cut),
+            _ => None,
+        }
+    }
+
+    /// The solids of a cut, in the world; of any other shape, itself.
+    pub fn leaves(&self) -> &[Shape] {
+        self.cut().map_or(std::slice::from_ref(self), Cut::solids)
+    }
+
+    /// The coats of paint: shapes of one look each, which together look like this one. A face of a cut has the look of its
+    /// solid if that has a colour, and that of the cut if not.
+    pub fn coats(&self) -> Vec<Shape> {
+        let Some(cut) = self.cut() else { return vec![self.clone()] };
+        let mut coats: Vec<(Look, Vec<usize>)> = Vec::new();
+        for (leaf, solid) in cut.solids().iter().enumerate() {
+            let look = if solid.color().is_some() { solid.look() } else { self.look() };
+            let look = Look { bevel: None, ..look };
+            match coats.iter_mut().find(|(known, _)| *known == look) {
+                Some((_, leaves)) => leaves.push(leaf),
+                None => coats.push((look, vec![leaf])),
+            }
+        }
+        let coat = |(look, leaves): &(Look, Vec<usize>)| {
+            let shown = Solid::Cut(Arc::new(cut.showing(leaves.clone())));
+            Shape::new(shown, Placement::IDENTITY, look).expect("the cut with another look")
+        };
+        match &coats[..] {
+            [(look, _)] if *look == self.look() => vec![self.clone()],
+            coats => coats.iter().map(coat).collect(),
+        }
+    }
+
+    /// The places among its [`Shape::leaves`] of the solids whose faces pictures show.
+    pub fn shown(&self) -> Vec<usize> {
+        (0..self.leaves().len()).filter(|leaf| self.cut().is_none_or(|cut| cut.shows(*leaf))).collect()
+    }
+
+    /// The look, without the rotation, which is in the placement.
+    fn look(&self) -> Look {
+        Look {
+            rotation: None,
+            bevel: self.bevel(),
+            color: self.color(),
+            metalness: self.metalness(),
+            roughness: self.roughness(),
+        }
     }
 
     /// The solid, in its own coordinates.
@@ -189,9 +270,9 @@ impl Shape {
         self.0.solid.kind()
     }
 
-    /// The tone without a colour.
+    /// The tone without a colour; of a cut, that of its first solid.
     pub fn tone(&self) -> Tone {
-        self.0.solid.tone()
+        self.cut().map_or(self, Cut::base).0.solid.tone()
     }
 
     /// The address in memory, which is unique while the shape exists.
@@ -257,7 +338,16 @@ impl Shape {
     /// resolution of chapter 5's figures). A flat face and a round rim share vertices where they meet, because their normals
     /// agree there.
     pub fn fine_mesh(&self) -> FineMesh {
-        let bevel = self.bevel().map(|bevel| bevel.clamp(0.0, 1.0));
+        self.bevelled(self.bevel())
+    }
+
+    /// [`Shape::fine_mesh`], with sharp edges unless the shape has a bevel of its own.
+    pub fn sharp_mesh(&self) -> FineMesh {
+        self.bevelled(Some(self.bevel().unwrap_or(0.0)))
+    }
+
+    fn bevelled(&self, bevel: Option<f64>) -> FineMesh {
+        let bevel = bevel.map(|bevel| bevel.clamp(0.0, 1.0));
         let (mut mesh, placement) = (self.0.solid.fine(bevel).without_unused(), self.placement());
         for p in &mut mesh.vertices {
             *p = placement.apply(*p);

@@ -62,6 +62,10 @@ pub trait Arguments<S: Scalar> {
     fn frame(&self, at: usize) -> Result<([S; 3], Frame), Self::Fault>;
     /// The bark below a segment.
     fn bark(&self, at: usize) -> Result<Bark, Self::Fault>;
+    /// Points of space, of three numbers each.
+    fn points(&self, at: usize) -> Result<Vec<[S; 3]>, Self::Fault>;
+    /// Points of a plane, of two numbers each.
+    fn pairs(&self, at: usize) -> Result<Vec<[S; 2]>, Self::Fault>;
     /// A mesh: its vertices are at this place, its faces at the next.
     fn mesh(&self, at: usize) -> Result<Arc<TriMesh>, Self::Fault>;
 }
@@ -140,6 +144,15 @@ pub fn turned<S: Scalar>(center: [S; 3], rotation: Option<[[S; 3]; 3]>, size: [S
     [center, along(0), along(1), along(2)]
 }
 
+/// The images of the coordinate directions, which `laid` and then `rotation` turn.
+pub fn images<S: Scalar>(laid: Mat3, rotation: Option<[[S; 3]; 3]>) -> [[S; 3]; 3] {
+    let rotation = rows(rotation);
+    laid.columns.map(|column| {
+        let [x, y, z] = column.to_array().map(S::from_f64);
+        rotation.map(|row| row[0] * x + row[1] * y + row[2] * z)
+    })
+}
+
 /// Around `center` along `axis` (any length), then turned: the only direction is the axis, `length` long.
 pub fn laid_along<S: Scalar>(
     center: [S; 3],
@@ -162,6 +175,40 @@ pub fn between<S: Scalar>(start: [S; 3], end: [S; 3]) -> [[S; 3]; 4] {
     let (half, zero) = (S::from_f64(0.5), [S::from_f64(0.0); 3]);
     let along = [0, 1, 2].map(|k| end[k] - start[k]);
     [[0, 1, 2].map(|k| start[k] + half * along[k]), zero, along, zero]
+}
+
+/// The position of points of a plane at a height of their own, in the box around them: the middle of the box, and its sides. They
+/// are placed as `lie` says: the images of their two coordinates and of the height.
+pub fn boxed<S: Scalar>(pairs: &[[S; 2]], height: [S; 2], center: [S; 3], lie: [[S; 3]; 3]) -> [[S; 3]; 4] {
+    let ends = |k: usize| {
+        let mut numbers = pairs.iter().map(|pair| pair[k]);
+        let first = numbers.next().unwrap_or(S::from_f64(0.0));
+        numbers.fold([first, first], |[low, high], x| [low.min(x), high.max(x)])
+    };
+    let sides = [ends(0), ends(1), height];
+    let half = S::from_f64(0.5);
+    let middle = [0, 1, 2]
+        .map(|i| (0..3).fold(center[i], |sum, k| sum + lie[k][i] * (half * (sides[k][0] + sides[k][1]))));
+    let along = |k: usize| lie[k].map(|x| x * (sides[k][1] - sides[k][0]));
+    [middle, along(0), along(1), along(2)]
+}
+
+/// The position of given points: their mean, and three sums of their distances from it. The weights of the sums depend on nothing but
+/// the numbers of the points, and have no pattern. So whatever moves, turns or stretches all points does the same with the position.
+pub fn spread<S: Scalar>(points: &[[S; 3]]) -> [[S; 3]; 4] {
+    // The plastic number of three dimensions: multiples of its powers fill a cube evenly (Roberts 2018).
+    const ROOTS: [f64; 3] = [0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3];
+    let share = S::from_f64(1.0 / points.len().max(1) as f64);
+    let sum = |weight: &dyn Fn(usize) -> S, of: &dyn Fn([S; 3]) -> [S; 3]| {
+        points.iter().enumerate().fold([S::from_f64(0.0); 3], |sum, (k, p)| {
+            let (weight, p) = (weight(k), of(*p));
+            [0, 1, 2].map(|i| sum[i] + weight * p[i])
+        })
+    };
+    let mean = sum(&|_| share, &|p| p);
+    let away = |p: [S; 3]| [0, 1, 2].map(|i| p[i] - mean[i]);
+    let along = |root: f64| sum(&|k| S::from_f64((k as f64 * root).fract() - 0.5), &away);
+    [mean, along(ROOTS[0]), along(ROOTS[1]), along(ROOTS[2])]
 }
 
 /// Kinds of parameters: the type of an argument in a call, and its reading. An `Option` of a kind may be absent.
@@ -275,6 +322,14 @@ pub mod kinds {
     kind! {
         /// The bark below a segment.
         Barked "Bark" [Bark] Never, |never| match never {}, |arguments, at| arguments.bark(at)
+    }
+    kind! {
+        /// Points of space.
+        Points "Sequence[VecLike]" [Vec<[S; 3]>] Never, |never| match never {}, |arguments, at| arguments.points(at)
+    }
+    kind! {
+        /// Points of a plane.
+        Pairs "Sequence[VecLike]" [Vec<[S; 2]>] Never, |never| match never {}, |arguments, at| arguments.pairs(at)
     }
     kind! {
         /// The vertices of a mesh, and its faces, which are the next parameter.

@@ -69,6 +69,33 @@ impl Bits {
         }
     }
 
+    /// Takes a cell out of the set.
+    pub(crate) fn clear(&mut self, [x, y, z]: [i64; 3]) {
+        if let Some((word, bit)) = self.place(x, y, z) {
+            self.words[word] &= !(1 << bit);
+        }
+    }
+
+    /// Takes the cells of another set over the same box out of this one.
+    pub(crate) fn remove(&mut self, other: &Bits) {
+        self.words.iter_mut().zip(&other.words).for_each(|(word, other)| *word &= !other);
+    }
+
+    /// Puts cells `64 * column ..` of a row of the box into the set.
+    pub(crate) fn put(&mut self, column: usize, y: usize, z: usize, cells: u64) {
+        if let Some((word, _)) = self.place(column as i64 * 64, y as i64, z as i64) {
+            self.words[word] |= cells;
+        }
+    }
+
+    /// A cell of the set.
+    pub(crate) fn first(&self) -> Option<[i64; 3]> {
+        let at = self.words.iter().position(|word| *word != 0)?;
+        let (row, x) = (at / self.columns, at % self.columns * 64 + self.words[at].trailing_zeros() as usize);
+        let (y, z) = (row % self.dims[1], row / self.dims[1]);
+        Some([self.low[0] + x as i64, self.low[1] + y as i64, self.low[2] + z as i64])
+    }
+
     /// Cells `64 * column ..` of a row.
     #[inline]
     pub fn word(&self, column: usize, y: usize, z: usize) -> u64 {
@@ -113,6 +140,44 @@ pub fn mark(mesh: &TriMesh, grid: &Grid, bits: &mut Bits) {
     for fold in mesh.folds() {
         mark_fold(mesh, fold, grid, bits);
     }
+}
+
+/// Sets every cell of `marked` that is in `among` and that a triangle of `mesh` touches. The two sets are over one box.
+pub(crate) fn mark_among(mesh: &TriMesh, grid: &Grid, among: &Bits, marked: &mut Bits) {
+    let end: [i64; 3] = std::array::from_fn(|a| among.low[a] + among.dims[a] as i64 - 1);
+    for corners in mesh.corners() {
+        let (t, first, last) = in_grid(corners, grid);
+        let mut axes = None;
+        let [x, last_x] = [first[0].max(among.low[0]), last[0].min(end[0])].map(|x| x - among.low[0]);
+        if x > last_x {
+            continue;
+        }
+        for z in first[2].max(among.low[2])..=last[2].min(end[2]) {
+            for y in first[1].max(among.low[1])..=last[1].min(end[1]) {
+                let row = ((z - among.low[2]) as usize * among.dims[1] + (y - among.low[1]) as usize) * among.columns;
+                for column in x / 64..=last_x / 64 {
+                    let at = row + column as usize;
+                    let mut open = among.words[at] & !marked.words[at] & cells_between(x, last_x, column * 64);
+                    while open != 0 {
+                        let bit = open.trailing_zeros();
+                        open &= open - 1;
+                        let across = (among.low[0] + column * 64 + i64::from(bit)) as f64;
+                        let middle = vec3(across + 0.5, y as f64 + 0.5, z as f64 + 0.5);
+                        let axes = axes.get_or_insert_with(|| separating_axes(&t));
+                        if axes.iter().all(|axis| axis.meets(middle)) {
+                            marked.words[at] |= 1 << bit;
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The bits of a word that begins at `base` for the cells `first..=last`.
+fn cells_between(first: i64, last: i64, base: i64) -> u64 {
+    let (low, high) = ((first - base).clamp(0, 63), (last - base).clamp(0, 63));
+    (u64::MAX >> (63 - high)) & (u64::MAX << low)
 }
 
 /// Calls `f` with each cell of the box of `bits` that a triangle touches, and the triangle in grid coordinates.

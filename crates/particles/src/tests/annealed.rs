@@ -19,7 +19,7 @@ fn scheduled(powers: &[f64]) -> Settings {
 fn a_schedule_changes_neither_evidence_nor_posterior() {
     for (name, text) in PROGRAMS {
         for when in [When::Always, When::EffectiveBelow(0.5)] {
-            let scores = z_scores(&task(text), &Settings { when, ..scheduled(&UP_AND_DOWN) }, 0..4000);
+            let scores = z_scores(&task(text), &Settings { when, ..scheduled(&UP_AND_DOWN) }, 0..16_000);
             assert!(worst(&scores) < LIMIT, "{name}, {when:?}: {scores:?}");
         }
     }

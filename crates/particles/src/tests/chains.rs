@@ -2,8 +2,8 @@
 //! with changing structure and with futures; and they move.
 //!
 //! Particle Gibbs is started from an exact draw (by rejection, its order drawn by the policy) and makes three sweeps;
-//! the value after them has the exact posterior, independently for each of 6,000 seeds, so that the count of each
-//! outcome is binomial. PIMH has no exact start: 4,000 chains of three particles take 40 sweeps, and their last
+//! the value after them has the exact posterior, independently for each of 1,500 seeds, so that the count of each
+//! outcome is binomial. PIMH has no exact start: 1,000 chains of three particles take 40 sweeps, and their last
 //! values are counted. A z beyond 5 happens once in 1.7 million; about 100 are looked at.
 
 use super::*;
@@ -40,7 +40,7 @@ fn it_keeps_it_when_resampling_is_adaptive_and_the_power_changes() {
     }
 }
 
-/// A small error in what the order of what follows counts shows on the program for it alone, with twenty thousand seeds.
+/// A small error in what the order of what follows counts shows on the program for it alone, with five thousand seeds.
 #[test]
 fn ancestors_count_the_order_of_what_follows() {
     let task = task(PROGRAMS[7].1);
@@ -66,7 +66,7 @@ fn ancestor_sampling_moves_what_a_kept_past_does_not() {
 
 fn pimh_scores(text: &str) -> Vec<(String, f64)> {
     let task = task(text);
-    let values: Vec<String> = (0..4000)
+    let values: Vec<String> = (0..repetitions(4000))
         .filter_map(|seed| {
             let settings = Settings { seed, ..small(3, Order::Stochastic) };
             match pimh(&task, &settings, 40, &mut |_| true) {
@@ -87,13 +87,13 @@ fn pimh_finds_the_posterior() {
     }
 }
 
-/// The mean over 6,000 calls of the evidence estimate, relative to the truth, as a z-score; a call in which every
+/// The mean over 1,500 calls of the evidence estimate, relative to the truth, as a z-score; a call in which every
 /// population died is an estimate of zero.
 fn pimh_evidence(text: &str, particles: usize) -> f64 {
     let task = task(text);
     let exact = enumerate(&task, 100_000, &mut |_| true).unwrap().log_evidence;
-    let (mut sum, mut squares, n) = (0.0, 0.0, 6000.0);
-    for seed in 0..6000 {
+    let (mut sum, mut squares, seeds) = (0.0, 0.0, repetitions(SEEDS));
+    for seed in 0..seeds {
         let settings = Settings { seed, ..small(particles, Order::Stochastic) };
         let estimate = match pimh(&task, &settings, 3, &mut |_| true) {
             Ok(chain) => (chain.log_evidence.unwrap() - exact).exp(),
@@ -102,17 +102,18 @@ fn pimh_evidence(text: &str, particles: usize) -> f64 {
         };
         (sum, squares) = (sum + estimate, squares + estimate * estimate);
     }
+    let n = seeds as f64;
     let mean: f64 = sum / n;
     (mean - 1.0) / ((squares / n - mean * mean) / n).sqrt()
 }
 
 /// Populations die here now and then (0.9 to the power of their size).
-const RARE: &str = r#"(module (fn "m" (params) (set $x (sample (dist bernoulli 0.1))) (do (condition $x))
+const SELDOM: &str = r#"(module (fn "m" (params) (set $x (sample (dist bernoulli 0.1))) (do (condition $x))
     (set $y (sample (dist bernoulli 0.5))) (do (factor (cond $y 0.0 -1.0))) (return $y)) (entry "m"))"#;
 
 #[test]
 fn the_evidence_of_pimh_is_unbiased_over_all_calls() {
-    for text in PROGRAMS.map(|(_, text)| text).into_iter().chain([RARE]) {
+    for text in PROGRAMS.map(|(_, text)| text).into_iter().chain([SELDOM]) {
         for particles in [1, 4] {
             let z = pimh_evidence(text, particles);
             assert!(z.abs() < LIMIT, "{particles} particles: {z}: {text}");
@@ -126,7 +127,7 @@ fn pimh_waits_for_a_population_that_survives() {
     let (mut late, mut failed) = (0, 0);
     for seed in 0..300 {
         let settings = Settings { seed, ..small(1, Order::Stochastic) };
-        match pimh(&task(RARE), &settings, 9, &mut |_| true) {
+        match pimh(&task(SELDOM), &settings, 9, &mut |_| true) {
             Ok(chain) => {
                 assert!(chain.died < 10 && chain.tries == 9 && chain.moves <= chain.states.len());
                 assert!(chain.states.iter().all(|s| s.has_ended && s.cause.is_none()));
@@ -148,7 +149,7 @@ fn particle_gibbs_waits_for_a_population_that_survives() {
     let (mut late, mut failed) = (0, 0);
     for seed in 0..300 {
         let settings = Settings { seed, ..small(2, Order::Stochastic) };
-        match particle_gibbs(&task(RARE), &settings, Ancestors::Sampled, 9, None, &mut |_| true) {
+        match particle_gibbs(&task(SELDOM), &settings, Ancestors::Sampled, 9, None, &mut |_| true) {
             Ok(chain) => {
                 assert!(chain.died < 10 && chain.states.len() == 9);
                 late += usize::from(chain.died > 0);

@@ -1,6 +1,7 @@
 //! Programs whose answer is known, and z-scores of what a search says of them. Also the tests of look-ahead that is learned include
 //! this file, in the crate that trains guides; so it names its crate from outside.
 
+use niwaki_agreement::{RARE, repetitions};
 use niwaki_particles::{Ancestors, Result, Settings, particle_gibbs, smc};
 use niwaki_run::Task;
 use niwaki_run::enumeration::enumerate;
@@ -148,7 +149,20 @@ pub(crate) const PROGRAMS: [(&str, &str); 11] = [
     ),
 ];
 
-/// Mean and standard error of the evidence, relative to the truth, and of each outcome's share of it.
+/// The outcomes that `n` repetitions can count, with their probabilities; the others are one outcome, [`OTHERS`].
+fn countable(outcomes: impl Iterator<Item = (String, f64)>, n: f64) -> Vec<(String, f64)> {
+    let (mut shares, rare): (Vec<_>, Vec<_>) = outcomes.partition(|(_, p)| n * p >= RARE);
+    if !rare.is_empty() {
+        shares.push((OTHERS.to_string(), rare.iter().map(|(_, p)| p).sum()));
+    }
+    shares
+}
+
+/// The name of all outcomes that are rare.
+const OTHERS: &str = "others";
+
+/// Mean and standard error of the evidence, relative to the truth, and of each outcome's share of it. Seeds are the
+/// [`repetitions`] of the range.
 pub(crate) fn z_scores(task: &Task, settings: &Settings, seeds: std::ops::Range<u64>) -> Vec<(String, f64)> {
     z_scores_of(task, &|seed| smc(task, &Settings { seed, ..settings.clone() }, &mut |_| true), seeds)
 }
@@ -172,11 +186,16 @@ pub(crate) fn z_scores_here(
     search: &dyn Fn(u64) -> std::result::Result<Result, niwaki_run::Failure>,
     seeds: std::ops::Range<u64>,
 ) -> Vec<(String, f64)> {
+    let seeds = seeds.start..seeds.start + repetitions(seeds.end - seeds.start);
     let n = (seeds.end - seeds.start) as f64;
     let exact = enumerate(task, 100_000, &mut |_| true).unwrap();
     let z = exact.log_evidence;
     let truth: Vec<(String, f64)> =
-        exact.outcomes.iter().map(|(v, log)| (repr(v).unwrap(), (log - z).exp())).collect();
+        countable(exact.outcomes.iter().map(|(v, log)| (repr(v).unwrap(), (log - z).exp())), n);
+    let name_of = |value: String| match truth.iter().any(|(name, _)| *name == value) {
+        true => value,
+        false => OTHERS.to_string(),
+    };
     // Estimates of Z p(outcome) / Z: the run's evidence times the outcome's share of the weight, unbiased.
     let mut sums: HashMap<&str, (f64, f64)> = HashMap::new();
     for seed in seeds {
@@ -191,7 +210,7 @@ pub(crate) fn z_scores_here(
         let total: f64 = weights.iter().sum();
         let mut shares: HashMap<String, f64> = HashMap::new();
         for (p, w) in run.particles.iter().zip(&weights) {
-            *shares.entry(repr(&p.value).unwrap()).or_insert(0.0) += w / total;
+            *shares.entry(name_of(repr(&p.value).unwrap())).or_insert(0.0) += w / total;
         }
         let mut add = |name, x: f64| {
             let s = sums.entry(name).or_insert((0.0, 0.0));
@@ -228,12 +247,12 @@ pub(crate) fn settings(order: Order, resampling: Resampling) -> Settings {
     Settings { particles: 8, order, resampling, ..Settings::default() }
 }
 
-/// Exact draws from the posterior, by rejection. Their bound is the best score of five thousand runs; a better one would be
+/// [`repetitions`] of exact draws from the posterior, by rejection. Their bound is the best score of five thousand runs; a better one would be
 /// refused.
 pub(crate) fn exact_draws(task: &Task, count: u64) -> Vec<Vec<Entry>> {
     let scores = (0..5000).map(|stream| forward(task, 2, stream, false).unwrap().log_score);
     let bound = scores.fold(f64::NEG_INFINITY, f64::max);
-    let accepted = rejection(task, count as usize, bound, u64::MAX, 1, &mut |_| true).unwrap();
+    let accepted = rejection(task, repetitions(count) as usize, bound, u64::MAX, 1, &mut |_| true).unwrap();
     accepted.runs.iter().map(|run| run.log.entries()).collect()
 }
 
@@ -257,17 +276,24 @@ pub(crate) fn values_after(
 pub(crate) fn counted(task: &Task, values: &[String]) -> Vec<(String, f64)> {
     let exact = enumerate(task, 100_000, &mut |_| true).unwrap();
     let n = values.len() as f64;
-    exact
-        .outcomes
-        .iter()
-        .map(|(value, log)| {
-            let (name, p) = (repr(value).unwrap(), (log - exact.log_evidence).exp());
-            let count = values.iter().filter(|v| **v == name).count() as f64;
-            // A certain outcome has no error.
-            ((count - n * p) / (n * p * (1.0 - p)).sqrt().max(1e-9), name)
-        })
-        .map(|(z, name)| (name, z))
-        .collect()
+    let outcomes = exact.outcomes.iter();
+    let shares = countable(
+        outcomes.map(|(value, log)| (repr(value).unwrap(), (log - exact.log_evidence).exp())),
+        n,
+    );
+    let mut counts: HashMap<&str, f64> = HashMap::new();
+    for value in values {
+        let name = shares.iter().find(|(name, _)| name == value).map_or(OTHERS, |(name, _)| name);
+        *counts.entry(name).or_insert(0.0) += 1.0;
+    }
+    let z = |(name, p): &(String, f64)| {
+        let count = counts.get(name.as_str()).copied().unwrap_or(0.0);
+        // A certain outcome has no error.
+        (name.clone(), (count - n * p) / (n * p * (1.0 - p)).sqrt().max(1e-9))
+    };
+    let impossible = counts.contains_key(OTHERS) && shares.iter().all(|(name, _)| name != OTHERS);
+    let impossible = impossible.then(|| ("an impossible outcome".to_string(), f64::INFINITY));
+    shares.iter().map(z).chain(impossible).collect()
 }
 
 pub(crate) fn small(particles: usize, order: Order) -> Settings {

@@ -94,7 +94,7 @@ fn pimh_finds_the_posterior_under_any_forecast() {
                 Err(other) => panic!("{other}"),
             }
         };
-        let values: Vec<String> = (0..2000).filter_map(last).collect();
+        let values: Vec<String> = (0..repetitions(2000)).filter_map(last).collect();
         let scores = counted(&task, &values);
         assert!(worst(&scores) < LIMIT, "{name}: {scores:?}");
     }

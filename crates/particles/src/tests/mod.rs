@@ -35,6 +35,7 @@ mod several;
 mod tempered;
 
 use judges::*;
+use niwaki_agreement::{RARE, repetitions};
 
 #[test]
 fn evidence_and_posterior_are_right_for_every_order_and_resampling() {

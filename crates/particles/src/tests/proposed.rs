@@ -223,7 +223,7 @@ fn particle_gibbs_keeps_the_posterior_under_a_proposal() {
 #[test]
 fn pimh_keeps_the_posterior_under_a_proposal() {
     for (name, _, task, proposal) in cases().step_by(2) {
-        let values: Vec<String> = (0..1500)
+        let values: Vec<String> = (0..repetitions(1500))
             .filter_map(|seed| {
                 let settings =
                     Settings { seed, proposal: Some(proposal.clone()), ..small(3, Order::Stochastic) };

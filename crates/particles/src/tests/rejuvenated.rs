@@ -4,7 +4,7 @@
 //! The law `F_n` is known to the bit: forward runs up to barrier n are collected until their probabilities sum to one.
 //! 40,000 particles are then drawn from it independently, moved, and counted; each count is a binomial variable. About
 //! 300 counts are looked at, and a z beyond 5 comes once in 1.7 million (normal approximation; states that are expected
-//! fewer than 10 times are left out), so a re-seeded suite fails once in 5,000 runs.
+//! fewer than 25 times are left out), so a re-seeded suite fails once in 5,000 runs.
 
 use super::*;
 use crate::population::Population;
@@ -133,7 +133,7 @@ pub(super) fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> 
         counts.keys().filter(|text| !law.contains_key(*text)).map(|_| 99.0).fold(0.0, f64::max);
     for (text, p) in &law {
         let p = p / total;
-        if n * p >= 10.0 {
+        if n * p >= RARE {
             let count = counts.get(text).copied().unwrap_or(0.0);
             worst = worst.max((count - n * p).abs() / (n * p * (1.0 - p)).sqrt().max(1e-9));
         }

@@ -123,7 +123,7 @@ fn pimh_finds_the_posterior_by_tempered_weights() {
                 Err(other) => panic!("{other}"),
             }
         };
-        let values: Vec<String> = (0..1200).filter_map(last).collect();
+        let values: Vec<String> = (0..repetitions(1200)).filter_map(last).collect();
         let scores = counted(&task, &values);
         assert!(worst(&scores) < LIMIT, "{name}: {scores:?}");
     }

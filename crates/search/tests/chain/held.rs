@@ -8,7 +8,7 @@
 use super::board::furthest;
 use super::programs::{leaf, task};
 use super::regrown::PROGRAMS;
-use niwaki_agreement::compare;
+use niwaki_agreement::{compare, repetitions};
 use niwaki_chain::kernel::Kernel;
 use niwaki_chain::leaf::regrow::{Afresh, afresh};
 use niwaki_chain::{Chain, Settings as ChainSettings};
@@ -195,7 +195,7 @@ fn locked() -> Vec<(String, Task, HashMap<String, f64>)> {
 
 #[test]
 fn populations_give_the_law_given_held_choices() {
-    const SEEDS: u64 = 1500;
+    let seeds = repetitions(1500);
     let plain = |order, resampling| Settings { particles: 8, order, resampling, ..Settings::default() };
     let moved = |kernel| Rejuvenation { kernel, moves: 2, at: Moment::End, final_chains: None };
     let regrow = leaf("regrow", json!({"particles": 3, "turn": 0.5, "pick": "size"}));
@@ -216,7 +216,7 @@ fn populations_give_the_law_given_held_choices() {
     for (name, task, exact) in locked() {
         for (row, settings) in rows.iter().enumerate() {
             let mut estimates = vec![];
-            for seed in 0..SEEDS {
+            for seed in 0..seeds {
                 match smc(&task, &Settings { seed, ..settings.clone() }, &mut |_| true) {
                     Ok(result) => estimates.push((
                         result.log_evidence.expect("an estimate"),
@@ -247,7 +247,7 @@ fn a_future_may_begin_after_its_call_is_left() {
     assert_eq!(held.len(), 1);
     let (exact, locked) = (conditioned(&runs, &held), hold(&free, held).expect("a lock"));
     let mut estimates = vec![];
-    for seed in 0..1500 {
+    for seed in 0..repetitions(1500) {
         let settings = Settings { particles: 8, seed, ..Settings::default() };
         let result = smc(&locked, &settings, &mut |_| true).expect("particles");
         assert!(

@@ -8,6 +8,7 @@ use super::law::Law;
 use super::on_one_thread;
 use super::populations::by;
 use super::programs::{PROGRAMS, page, task};
+use niwaki_agreement::repetitions;
 use niwaki_chain::form::{Attached, Form};
 use niwaki_chain::kernel::Kernel;
 use niwaki_chain::{Chain, Settings};
@@ -25,11 +26,11 @@ use niwaki_vm::value::repr;
 use serde_json::json;
 use std::sync::Arc;
 
-/// Exact draws from the posterior.
-fn draws(task: &Task, count: usize) -> Vec<Vec<Entry>> {
+/// [`repetitions`] of exact draws from the posterior.
+fn draws(task: &Task, count: u64) -> Vec<Vec<Entry>> {
     let scores = (0..2000).map(|stream| forward(task, 2, stream, false).expect("a run").log_score);
     let bound = scores.fold(f64::NEG_INFINITY, f64::max) + 0.5;
-    let accepted = rejection(task, count, bound, u64::MAX, 1, &mut |_| true).expect("draws");
+    let accepted = rejection(task, repetitions(count) as usize, bound, u64::MAX, 1, &mut |_| true).expect("draws");
     accepted.runs.iter().map(|run| run.log.entries()).collect()
 }
 

@@ -219,6 +219,7 @@ niwaki_geom::words_of_solids! {
     "range" 1 3 sequences::range;
     "to_list" 0 1 sequences::to_list;
     "to_tuple" 0 1 sequences::to_tuple;
+    "options" 1 1 sequences::options;
 
     "str" 0 1 strings::str;
     "repr" 1 1 strings::repr;
@@ -295,6 +296,7 @@ pub(crate) mod tests {
             "reversed",
             "to_list",
             "to_tuple",
+            "options",
             "enumerate",
             "zip",
             "zip_strict",

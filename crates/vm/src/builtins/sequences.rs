@@ -180,6 +180,18 @@ pub fn to_tuple<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     }
 }
 
+/// The options of `choose`: any sequence as it is. A dict has weights, whose distribution is another one: it must be known
+/// when the model is compiled.
+pub fn options<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
+    match &args[0] {
+        Value::Dict(_) => Err(Fault::type_mismatch(
+            "`choose` takes a dict that is written at the call or is a constant of the module, and no other",
+        )
+        .with_help("pass the values and the weights: `choose(list(d), list(d.values()))`")),
+        sequence => Ok(sequence.clone()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use crate::builtins::tests::{V, call, code, ints, reals};

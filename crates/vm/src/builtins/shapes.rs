@@ -14,7 +14,7 @@ use niwaki_geom::{Bark, Frame, GeomError, Shape, Solid, TriMesh, Vec3};
 use super::Builtin;
 use super::answer::{Answer, unfit};
 use super::arithmetic::{real, whole};
-use super::vectors::three;
+use super::vectors::{three, two};
 use crate::fault::Fault;
 use crate::value::index::{iter_all, iter_get, iter_len};
 use crate::value::{Scalar, Value, identical};
@@ -66,6 +66,20 @@ impl<S: Scalar> WordCall<'_, S> {
             return Err(self.named(at, &unfit(self.word.name, expected, arg)));
         }
         iter_all(arg)
+    }
+
+    /// The points of a list or a tuple.
+    fn list_of<const N: usize>(
+        &self,
+        at: usize,
+        expected: &str,
+        read: impl Fn(&str, &Value<S>) -> Result<[S; N], Fault>,
+    ) -> Result<Vec<[S; N]>, Fault> {
+        let arg = self.required(at)?;
+        if !matches!(arg, Value::Tuple(_) | Value::List(_)) {
+            return Err(self.named(at, &unfit(self.word.name, expected, arg)));
+        }
+        (0..iter_len(arg)?).map(|k| self.read(at, &iter_get(arg, k), &read)).collect()
     }
 }
 
@@ -135,6 +149,14 @@ impl<S: Scalar> Arguments<S> for WordCall<'_, S> {
         let place = |part: usize| self.read(at, &parts[part], point);
         let radius = |part: usize| self.read(at, &parts[part], length);
         Ok(Bark { low: place(0)?, low_radius: radius(1)?, high: place(2)?, high_radius: radius(3)? })
+    }
+
+    fn points(&self, at: usize) -> Result<Vec<[S; 3]>, Fault> {
+        self.list_of(at, "a list of points such as `[(0, 0, 0), (1, 0, 0)]`", three)
+    }
+
+    fn pairs(&self, at: usize) -> Result<Vec<[S; 2]>, Fault> {
+        self.list_of(at, "a list of points such as `[(0, 0), (1, 0)]`", two)
     }
 
     fn mesh(&self, at: usize) -> Result<Arc<TriMesh>, Fault> {

@@ -30,10 +30,19 @@ pub(super) fn parts<S: Scalar>(name: &str, value: &Value<S>) -> Result<Vector<S>
 
 /// Reads the three components of a vector.
 pub(super) fn three<S: Scalar>(name: &str, value: &Value<S>) -> Result<[S; 3], Fault> {
+    components(name, value)
+}
+
+/// Reads the two components of a vector.
+pub(super) fn two<S: Scalar>(name: &str, value: &Value<S>) -> Result<[S; 2], Fault> {
+    components(name, value)
+}
+
+fn components<S: Scalar, const N: usize>(name: &str, value: &Value<S>) -> Result<[S; N], Fault> {
     let v = parts(name, value)?;
     v.components().try_into().map_err(|_| {
         let count = v.components().len();
-        Fault::type_mismatch(format!("`{name}` takes vectors of 3 components, found {count}"))
+        Fault::type_mismatch(format!("`{name}` takes vectors of {N} components, found {count}"))
     })
 }
 

@@ -154,6 +154,8 @@ pub struct Site {
     pub is_tail: bool,
     /// The arguments.
     pub args: Args,
+    /// Whether the last argument of a choice is the list of its options ([`At::words`](crate::machine::answers::At::words)).
+    pub has_options: bool,
     /// A hash of the qualified function, the called function or family, the assigned name, and the occurrence
     /// among equals: it does not depend on line numbers.
     pub key: u128,
@@ -179,5 +181,12 @@ impl Site {
     #[inline]
     pub fn resumes_at(&self, pc: usize) -> usize {
         if self.kind.is_met_again() { pc } else { pc + 1 }
+    }
+
+    /// The arguments that give the distribution of a choice or an observation.
+    #[inline(always)]
+    pub fn parameters(&self) -> Args {
+        let is_last_other = self.has_options || matches!(self.kind, SiteKind::Observe(_));
+        Args { len: self.args.len - u16::from(is_last_other), ..self.args }
     }
 }

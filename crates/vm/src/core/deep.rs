@@ -88,7 +88,11 @@ fn take_expression(e: Expr, exprs: &mut Vec<Expr>) {
             exprs.extend(xs);
         }
         Cond(c, a, b) => exprs.extend([*c, *a, *b]),
-        Sample(x) | Factor(x) | Condition(x) | Force(x) | Field(x, _) | Mem(x, _) => exprs.push(*x),
+        Sample(x, options) => {
+            exprs.push(*x);
+            exprs.extend(options.map(|options| *options));
+        }
+        Factor(x) | Condition(x) | Force(x) | Field(x, _) | Mem(x, _) => exprs.push(*x),
         Observe(a, b) | Query(a, b) => exprs.extend([*a, *b]),
         Apply(x, xs) | FutureApply(x, xs) | Method(x, _, xs) => {
             exprs.push(*x);

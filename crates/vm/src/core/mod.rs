@@ -165,8 +165,8 @@ pub enum ExprKind {
     Closure(Name, Vec<Expr>),
     /// Call of a function value.
     Apply(Box<Expr>, Vec<Expr>),
-    /// A random choice.
-    Sample(Box<Expr>),
+    /// A random choice; of a whole number with the list of its options, whose words name the number.
+    Sample(Box<Expr>, Option<Box<Expr>>),
     /// A density factor of a distribution at a value.
     Observe(Box<Expr>, Box<Expr>),
     /// A log factor.

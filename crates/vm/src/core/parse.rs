@@ -154,7 +154,7 @@ fn compound(sexp: &Sexp<'_>) -> Result<Expr> {
         "call" => ExprKind::Call(name(at(0)?)?, tail(1)?),
         "closure" => ExprKind::Closure(name(at(0)?)?, tail(1)?),
         "apply" => ExprKind::Apply(boxed(0)?, tail(1)?),
-        "sample" => ExprKind::Sample(boxed(0)?),
+        "sample" => ExprKind::Sample(boxed(0)?, args.get(1).map(|_| boxed(1)).transpose()?),
         "observe" => ExprKind::Observe(boxed(0)?, boxed(1)?),
         "factor" => ExprKind::Factor(boxed(0)?),
         "condition" => ExprKind::Condition(boxed(0)?),

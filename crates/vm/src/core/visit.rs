@@ -21,7 +21,8 @@ impl Expr {
             | Record(_, xs)
             | Op(_, xs) => xs.iter().collect(),
             Cond(c, a, b) => vec![c, a, b],
-            Sample(x) | Factor(x) | Condition(x) | Force(x) | Field(x, _) | Mem(x, _) => vec![x],
+            Sample(x, options) => std::iter::once(&**x).chain(options.as_deref()).collect(),
+            Factor(x) | Condition(x) | Force(x) | Field(x, _) | Mem(x, _) => vec![x],
             Observe(a, b) | Query(a, b) => vec![a, b],
             Apply(f, xs) | FutureApply(f, xs) | Method(f, _, xs) => std::iter::once(&**f).chain(xs).collect(),
             Dict(ks, xs) => ks.iter().chain(xs).collect(),

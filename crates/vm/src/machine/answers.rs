@@ -114,16 +114,22 @@ impl<S: Scalar> At<'_, S> {
     /// The variables that are kept for the site, with their values.
     #[inline]
     fn variables(&self) -> impl DoubleEndedIterator<Item = (&Visible, &Value<S>)> {
+        let registers = self.registers();
+        let (from, to) = self.site.visible;
+        // Kept variables are never in scratch.
+        let visible = self.function.scope[from as usize..to as usize].iter();
+        visible.map(move |x| (x, registers.get(self.state, &[], x.at)))
+    }
+
+    /// The registers of the activation; those of scratch cannot be read.
+    #[inline]
+    pub(super) fn registers(&self) -> Registers<'_, S> {
         let node = &self.state.nodes[self.node.0 as usize];
         let outer = match self.function.mode {
             Mode::Iteration => self.state.nodes[node.parent.0 as usize].registers as usize,
             _ => 0,
         };
-        let registers = Registers { f: self.function, base: node.registers as usize, outer, scratch: 0 };
-        let (from, to) = self.site.visible;
-        // Kept variables are never in scratch.
-        let visible = self.function.scope[from as usize..to as usize].iter();
-        visible.map(move |x| (x, registers.get(self.state, &[], x.at)))
+        Registers { f: self.function, base: node.registers as usize, outer, scratch: 0 }
     }
 }
 

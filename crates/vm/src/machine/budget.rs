@@ -29,6 +29,9 @@ const PARAMETERS_PER_STEP: u64 = 8;
 /// The number of steps between two checks of the limits.
 const CHECK_INTERVAL: u64 = 256;
 
+/// The work with each solid of a cut, in elements.
+const CUT: usize = 64;
+
 /// The longest sequences without a price beyond that of the new value.
 const SHORT: usize = 64;
 
@@ -55,7 +58,7 @@ impl Price {
     }
 }
 
-/// The number of elements of a sequence; 0 for other values.
+/// The number of elements of a sequence, or the work with a cut solid, in elements; 0 for other values.
 #[inline]
 fn length<S: Scalar>(value: &Value<S>) -> usize {
     match value {
@@ -65,6 +68,7 @@ fn length<S: Scalar>(value: &Value<S>) -> usize {
         Value::Range(range) => range.len,
         Value::Dict(dict) => dict.len(),
         Value::Record(record) => record.fields.len(),
+        Value::Shape(shape) => shape.cut().map_or(0, |cut| CUT * cut.solids().len()),
         _ => 0,
     }
 }
@@ -96,6 +100,7 @@ pub(super) fn of_binary<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Pr
         | (Binary::Add | Binary::Sub | Binary::Mul | Binary::Div, _, Value::Vector(_) | Value::Rotation(_)) => {
             Price { steps: 0, bytes: a.own_bytes().max(b.own_bytes()) }
         }
+        (Binary::Sub, Value::Shape(_), Value::Shape(_)) => Price::of(2 * CUT + length(a) + length(b), 0),
         (Binary::In, _, sequence) => Price::of(length(sequence), 0),
         (Binary::Index, Value::Str(_), _) => Price { steps: 0, bytes: 64 },
         (Binary::Index, ..) => Price::default(),
@@ -116,7 +121,7 @@ fn of_long<S: Scalar>(builtin: &Builtin<S>, args: &[Value<S>], longest: usize) -
     let all: usize = args.iter().map(length).sum();
     let each = |bytes: usize| Price::of(all, all.saturating_mul(bytes));
     match builtin.name {
-        "append" | "len" | "is_none" | "not" | "bool" | "index" | "range" | "isnan" => Price::default(),
+        "append" | "len" | "options" | "is_none" | "not" | "bool" | "index" | "range" | "isnan" => Price::default(),
         "in" | "eq" | "ne" | "lt" | "le" | "gt" | "ge" => Price::of(all, 0),
         "add" => of_binary(Binary::Add, &args[0], &args[1]),
         "mul" => of_binary(Binary::Mul, &args[0], &args[1]),

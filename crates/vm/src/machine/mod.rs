@@ -52,6 +52,7 @@ pub mod runnable;
 pub mod stack;
 pub mod state;
 mod suspend;
+pub mod words;
 mod workspace;
 
 pub use outcome::Stop;

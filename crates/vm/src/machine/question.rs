@@ -129,21 +129,23 @@ impl<S: Scalar> Machine<'_, S> {
         site: &Site,
     ) -> Result<(), Halt> {
         if let SiteKind::Sample(Source::Family(family)) = site.kind {
-            self.charge_rows(state, &Dropped, r, site.args, family)?;
+            self.charge_rows(state, &Dropped, r, site.parameters(), family)?;
         }
         let (program, mut built) = (self.program, None);
         let held = self.held;
-        let dist = self.dist(state, r, site, site.args, &mut built)?;
+        let dist = self.dist(state, r, site, site.parameters(), &mut built)?;
         if let Some(held) = held
             && let Some((number, value)) = held.find(join(state.nodes[node.0 as usize].path, site.key))
         {
-            let log = log_density(dist, value)?;
+            let at = At { site, function: r.f, node, state, program };
+            let value = at.own_value(value)?;
+            let log = log_density(dist, &value)?;
             if A::WATCHES {
-                answers.observes(&At { site, function: r.f, node, state, program }, dist);
+                answers.observes(&at, dist);
             }
-            let answer = answers.held(&At { site, function: r.f, node, state, program }, dist, value, log)?;
+            let answer = answers.held(&at, dist, &value, log)?;
             state.unmet.remove(number);
-            state.registers[r.base + site.to.index()].store(value.clone());
+            state.registers[r.base + site.to.index()].store(value.into_owned());
             return if answer == Answer::Pause { Err(Halt::PausedAfter) } else { Ok(()) };
         }
         match answers.choice(&At { site, function: r.f, node, state, program }, dist)? {
@@ -210,7 +212,7 @@ impl<S: Scalar> Machine<'_, S> {
                 // The result of `observe` is the observed value, so that an observation can replace a choice.
                 let value = get!(last).clone();
                 let mut built = None;
-                let args = Args { len: last as u16, ..site.args };
+                let args = site.parameters();
                 if let SiteKind::Observe(Source::Family(family)) = site.kind {
                     self.charge_rows(state, &Dropped, r, args, family)?;
                 }

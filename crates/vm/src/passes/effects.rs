@@ -39,7 +39,7 @@ impl Effects {
         let mut suspends = false;
         e.each(&mut |e| {
             suspends |= match &e.kind {
-                Sample(_) | Observe(..) | Factor(_) | Condition(_) | Query(..) | Emit(_) | Force(_) => true,
+                Sample(..) | Observe(..) | Factor(_) | Condition(_) | Query(..) | Emit(_) | Force(_) => true,
                 Future(..) | FutureApply(..) | Apply(..) | Mem(..) => true,
                 Call(name, _) => self.function(name),
                 _ => false,

@@ -62,7 +62,7 @@ fn makes_choices(f: &Function) -> bool {
     let mut makes = false;
     each_stmt(&f.body, &mut |s| {
         for e in s.expressions() {
-            e.each(&mut |e| makes |= matches!(e.kind, ExprKind::Sample(_)));
+            e.each(&mut |e| makes |= matches!(e.kind, ExprKind::Sample(..)));
         }
     });
     makes

@@ -59,10 +59,17 @@ impl<S: Scalar> Builder<'_, '_, S> {
                     &operands,
                 )?
             }
-            Sample(d) => {
-                let (kind, callee_name, operands) = self.distribution(d, true)?;
+            Sample(d, options) => {
+                let (kind, callee_name, mut operands) = self.distribution(d, true)?;
+                if let Some(options) = options {
+                    operands.push(self.expr(options)?);
+                }
                 let label = choice_label(&callee_name);
-                self.add_site(kind, &callee_name, (&e.label, label), &operands)?
+                let drawn = self.add_site(kind, &callee_name, (&e.label, label), &operands)?;
+                if let Some(site) = self.sites.last_mut() {
+                    site.has_options = options.is_some();
+                }
+                drawn
             }
             Observe(d, v) => {
                 let (kind, callee_name, mut operands) = self.distribution(d, false)?;
@@ -228,6 +235,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
             is_read: true,
             is_tail: false,
             args,
+            has_options: false,
             key,
             label,
             span: self.span,

@@ -61,10 +61,11 @@ fn identical_scalars<S: Scalar>(a: &[S], b: &[S]) -> bool {
 
 /// Shapes are small and hold no values; only a mesh is large enough to give up.
 fn identical_shapes(a: &Shape, b: &Shape) -> bool {
-    match (a.solid(), b.solid()) {
-        (Solid::Mesh(m), Solid::Mesh(n)) if !Arc::ptr_eq(m, n) => false,
-        _ => a == b,
-    }
+    let is_another_mesh = |(a, b): (&Shape, &Shape)| match (a.solid(), b.solid()) {
+        (Solid::Mesh(m), Solid::Mesh(n)) => !Arc::ptr_eq(m, n),
+        _ => false,
+    };
+    !a.leaves().iter().zip(b.leaves()).any(is_another_mesh) && a == b
 }
 
 /// Distributions hold numbers and, in a mixture, further distributions (one level: mixtures are flat).

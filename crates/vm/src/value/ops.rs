@@ -7,8 +7,9 @@ use std::cmp::Ordering;
 use std::sync::Arc;
 
 use super::numbers::{self, Number};
-use super::{MAX_ELEMENTS, Scalar, Text, Value, Vector, compare};
+use super::{MAX_ELEMENTS, Scalar, Shape, Text, Value, Vector, compare};
 use crate::fault::Fault;
+use niwaki_geom::{GeomError, Operation};
 
 /// The result of an operator.
 pub type Answer<S> = Result<Value<S>, Fault>;
@@ -190,12 +191,21 @@ pub fn ne<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
     compare::equal(a, b).map(|equal| Value::Bool(!equal))
 }
 
+/// The solid that an operation makes of two; a fault if nothing is left of it.
+#[cold]
+fn cut<S: Scalar>(operation: Operation, a: &Value<S>, b: &Value<S>, shapes: [&Shape; 2]) -> Answer<S> {
+    let made = Shape::combined(operation, shapes[0], shapes[1]);
+    let fault = |error: GeomError| Fault::bad_shape(error.message).of_call(operation.sign(), &[a.clone(), b.clone()]);
+    made.map(Value::Shape).map_err(fault)
+}
+
 macro_rules! bit_operators {
-    ($($(#[$doc:meta])* $name:ident $sign:tt;)*) => { $(
+    ($($(#[$doc:meta])* $name:ident $sign:tt $solids:expr;)*) => { $(
         $(#[$doc])*
         pub fn $name<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
             match (a, b) {
                 (Value::Bool(a), Value::Bool(b)) => Ok(Value::Bool(a $sign b)),
+                (Value::Shape(p), Value::Shape(q)) if let Some(operation) = $solids => cut(operation, a, b, [p, q]),
                 _ => match (Number::of(a), Number::of(b)) {
                     (Some(Number::Int(a)), Some(Number::Int(b))) => Ok(Value::Int(a $sign b)),
                     _ => Err(mismatch(concat!("apply `", stringify!($sign), "` to"), a, "and", b)),
@@ -207,11 +217,11 @@ macro_rules! bit_operators {
 
 bit_operators! {
     /// `a & b`.
-    band &;
+    band & Some(Operation::Intersection);
     /// `a | b`.
-    bor |;
+    bor | Some(Operation::Union);
     /// `a ^ b`.
-    bxor ^;
+    bxor ^ None;
 }
 
 /// `~a`.
@@ -307,6 +317,7 @@ fn add_slow<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
 fn sub_slow<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
     match (a, b) {
         (Value::Vector(v), Value::Vector(w)) => componentwise("subtract", v, w, |x, y| x - y),
+        (Value::Shape(p), Value::Shape(q)) => cut(Operation::Difference, a, b, [p, q]),
         _ => match (Number::of(a), Number::of(b)) {
             (Some(Number::Int(a)), Some(Number::Int(b))) => sub(&Value::Int(a), &Value::Int(b)),
             (Some(a), Some(b)) => Ok(Value::Real(a.real() - b.real())),

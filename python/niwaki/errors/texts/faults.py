@@ -230,6 +230,19 @@ FAULTS = (
         cure="resuming a future that can run",
     ),
     Message(
+        "unknown-option",
+        "the choice has no such option",
+        "no such option",
+        why=INVALID,
+        help="write one of its options",
+        example='run(model, hold={"roof": "dome"})',
+        cure='run(model, hold={"roof": "hip"})',
+        about=(
+            "A choice among words takes one of them, or its place in the list. The options may differ from run to run: a search gives "
+            "a run without the held word probability zero."
+        ),
+    ),
+    Message(
         "bad-parameter",
         "a distribution's parameter is out of range",
         "no such distribution",

@@ -106,7 +106,8 @@ class Held:
         self.size = float((boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)).max()) or 1.0
         kept = sample._held(hold)
         for address, value in kept.items():
-            if sample.choices.get(address) != value:
+            # A word may be given by its place, as in files that have no words.
+            if value not in (sample.choices.get(address), sample.places.get(address)):
                 actual = sample.choices.get(address, "no such choice")
                 raise bad(
                     "hold", {address: value}, f"the value of the run, {actual!r}", "`sample.held(pattern)`"
@@ -120,7 +121,7 @@ class Held:
         )
 
     def _gripped(self, part: str, grab: Point | None) -> list[tuple[int, int, Vector, Any]]:
-        """The shapes of the part: place, number, middle and directions, and the shape."""
+        """The shapes of the part, of a cut its solids: place, number, middle and directions, and the shape."""
         trace = self.start.trace
         scene = [address for address, _ in trace.parts]
         numbers = {n for n, address in enumerate(scene) if _engine.matches(part, address)}
@@ -139,8 +140,14 @@ class Held:
             movable[1]: spread for movable, spread in zip(self.all.movables, spreads, strict=True)
         }
         grips: list[tuple[int, int, Vector, Any]] = []
+        self._bases: set[tuple[int, int]] = set()
         for n in sorted(numbers):
-            for k, shape in enumerate(trace.parts[n][1]):
+            solids = [
+                (shape, place) for whole in trace.parts[n][1] for place, shape in enumerate(whole.leaves())
+            ]
+            for k, (shape, place) in enumerate(solids):
+                if place == 0:
+                    self._bases.add((n, k))
                 frame = self.all.frame(n, k)
                 low, high = (np.array(corner) for corner in shape.aabb())
                 middle = np.vstack([(low + high) / 2, np.zeros((3, 3))]) if frame is None else frame
@@ -151,14 +158,17 @@ class Held:
         """Find the held point.
 
         The point is `grab`, fixed to the nearest shape; the default is the middle of the shape that is nearest to `to`.
+        A cut is held by its first solid, unless `grab` is a point of another, such as a hole.
         """
         goal = to if grab is None else grab
+        held = [grip for grip in self._grips if grab is not None or grip[:2] in self._bases]
 
-        def distance(grip: tuple[int, int, Vector, Any]) -> float:
+        def order(grip: tuple[int, int, Vector, Any]) -> tuple[float, bool]:
             low, high = (np.array(corner) for corner in grip[3].aabb())
-            return 0.0 if goal is None else float(np.linalg.norm(np.clip(goal, low, high) - goal))
+            distance = 0.0 if goal is None else float(np.linalg.norm(np.clip(goal, low, high) - goal))
+            return distance, grip[:2] in self._bases
 
-        self.at, shape, frame, _ = min(self._grips, key=distance)
+        self.at, shape, frame, _ = min(held, key=order)
         self.start.part = self.start.trace.parts[self.at][0]
         if grab is None:
             return Grip(shape, (0.0, 0.0, 0.0), np.zeros(3))

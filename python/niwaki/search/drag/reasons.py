@@ -8,29 +8,36 @@ import numpy as np
 
 from niwaki.search.drag.descent import bounds
 from niwaki.search.drag.held import Held, State, Vector
+from niwaki.shares import percent
 
 
 def nothing_moves(held: Held) -> str:
     """Word that no free choice moves the part: all that could are held, or there are none."""
-    part = held.start.part
+    labels = held.search.model.labels
+    part = labels.label(held.start.part)
     slopes = held.all.slopes(held.at, held.grip.shape, held.grip.shares)
     moves = [] if slopes is None else np.abs(slopes).max(axis=0) > 0
-    names = [name for (_, name, _), is_mover in zip(held.all.movables, moves, strict=False) if is_mover]
+    names = [
+        labels.label(name)
+        for (_, name, _), is_mover in zip(held.all.movables, moves, strict=False)
+        if is_mover
+    ]
     if not names:
-        return f"no choice of a real number moves `{part}`: its place follows from the source"
+        return f'no choice of a real number moves "{part}": its place follows from the source'
     many = (
         "the choice that moves it is held"
         if len(names) == 1
         else f"all {len(names)} choices that move it are held"
     )
-    return f"no free choice moves `{part}`: {many} ({_listed(names)})"
+    return f'no free choice moves "{part}": {many} ({_listed(names)})'
 
 
 def too_far(held: Held, goal: Vector, state: State) -> str:
     """Word how near the part can come, and the reason."""
-    part = state.part
-    share = f"{state.error / held.size:.1%} of the scene"
-    left = f"the nearest that `{part}` can come is {state.error:.3g} away ({share})"
+    labels = held.search.model.labels
+    part = labels.label(state.part)
+    share = f"{percent(state.error / held.size)} of the scene"
+    left = f'the nearest that "{part}" can come is {state.error:.3g} away ({share})'
     here = held.whole(state)
     assert here is not None
     low, high = bounds(here.ranges)
@@ -41,7 +48,7 @@ def too_far(held: Held, goal: Vector, state: State) -> str:
     ):
         slack = 1e-3 * max(spread, 1e-12)
         if (x <= lo + slack and want < 0) or (x >= hi - slack and want > 0):
-            ends.append(f"`{name}` is at the end of its range ({below:.3g} to {above:.3g})")
+            ends.append(f'"{labels.label(name)}" is at the end of its range ({below:.3g} to {above:.3g})')
     if ends:
         more = f" and {len(ends) - 2} more" if len(ends) > 2 else ""
         return f"{left}: {'; '.join(ends[:2])}{more}"
@@ -59,5 +66,5 @@ def too_far(held: Held, goal: Vector, state: State) -> str:
 
 
 def _listed(names: Sequence[str]) -> str:
-    shown = ", ".join(f"`{name}`" for name in names[:3])
+    shown = ", ".join(f'"{name}"' for name in names[:3])
     return f"{shown} and {len(names) - 3} more" if len(names) > 3 else shown

@@ -110,8 +110,8 @@ class Choose(Command, tag="choose"):
     """Set a choice of the active result. During the move only the shape is shown; the end adds a result."""
 
     address: Address
-    #: A colour, if the address is a region of a drawing.
-    value: float | int | bool | Color
+    #: A word, if the choice is among words; a colour, if the address is a region of a drawing.
+    value: float | int | bool | Text
     phase: Literal["move", "end"] = "end"
 
 

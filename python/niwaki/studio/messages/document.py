@@ -5,6 +5,9 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct
+from msgspec.structs import force_setattr
+
+from niwaki.shares import coverage
 
 Text = Annotated[str, Meta(max_length=2_000)]
 Address = Annotated[str, Meta(max_length=2_000)]
@@ -190,6 +193,13 @@ class Outcome(Struct, frozen=True):
     outside: float | None = None
     #: A note that the gallery shows in place of these shares.
     note: str = ""
+    #: These shares as a person reads them.
+    fit: str = ""
+
+    def __post_init__(self) -> None:
+        """Write the shares."""
+        if self.covered is not None and self.outside is not None:
+            force_setattr(self, "fit", coverage(self.covered, self.outside))
 
 
 class HeldPart(Struct, frozen=True):

@@ -68,11 +68,12 @@ class ModelInfo(Struct):
 
 
 class ChoiceInfo(Struct):
-    """A choice of a result: its value, and the range of its slider if it has a slider."""
+    """A choice of a result: its value; its options if they are words, else the range of its slider if it has one."""
 
     address: str
     family: str
     value: Any
+    options: list[str] = []
     low: float | None = None
     high: float | None = None
     is_whole: bool = False
@@ -93,6 +94,8 @@ class Searching(Struct):
     done: int = 0
     best: float | None = None
     seconds: float = 0.0
+    #: The fit of the best, as a person reads it; empty without a target.
+    fit: str = ""
 
 
 class View(Struct):
@@ -142,11 +145,19 @@ class Patch(Event, tag="patch"):
 
 
 class Described(Event, tag="described"):
-    """The choices and parts of a result, in the order of its run."""
+    """The choices and parts of a result, in the order of its run.
+
+    Attributes
+    ----------
+    labels
+        The label of every choice and part, and of the calls and iterations around them, by address: the whole label,
+        and its last step, which is read below the label of the call around it.
+    """
 
     key: Key | None = None
     choices: list[ChoiceInfo] = []
     parts: list[PartInfo] = []
+    labels: dict[str, tuple[str, str]] = {}
 
 
 class Shape(Event, tag="shape"):

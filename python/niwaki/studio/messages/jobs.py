@@ -243,6 +243,8 @@ class Progressed(Struct, tag_field="kind", tag="progressed"):
     done: int = 0
     best: float | None = None
     seconds: float = 0.0
+    #: The fit of the best, as a person reads it.
+    fit: str = ""
 
 
 class Loading(Struct, tag_field="kind", tag="loading"):

@@ -192,7 +192,7 @@ class Session:
         """Send a worker's report to all windows."""
         if isinstance(report, m.Progressed) and self.searching is not None:
             run = self.searching.run
-            self.searching = m.Searching(run, report.done, report.best, report.seconds)
+            self.searching = m.Searching(run, report.done, report.best, report.seconds, report.fit)
             event = m.Patch(rev=self._rev, changes={"searching": msgspec.to_builtins(self.searching)})
             for window in self.windows:
                 window.put(msgspec.json.encode(event).decode(), "searching")

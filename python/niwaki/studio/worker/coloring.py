@@ -7,6 +7,7 @@ an uploaded file. A run of `niwaki.color.coloring` is stored as any other run, w
 from __future__ import annotations
 
 import io
+import re
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -51,6 +52,7 @@ from niwaki.studio.messages import (
     ShowRun,
     WriteFile,
 )
+from niwaki.studio.problems import CommandError
 from niwaki.studio.worker import runs
 
 #: The prefix of references of drawings, and the prefix of uploaded files after it.
@@ -138,6 +140,9 @@ def change(job: Change, send: Any) -> Answer:
     """Measure a colouring with other colours of some regions or with other rules, without a search."""
     original, question = stored(job.source, job.number), job.question
     drawing = _drawing(question.model, question.file)
+    for color in job.changes.values():
+        if not isinstance(color, str) or re.fullmatch("#[0-9a-fA-F]{6}", color) is None:
+            raise CommandError("bad-color", f"{color!r} is not a colour: write `#rrggbb`")
     colors = {name: job.changes.get(name, original.colors.get(name, "#808080")) for name in drawing.names}
     coloring_ = painted(drawing, _rules(question), colors, _weight(question))
     coloring_.sample.seed = 0

@@ -67,15 +67,16 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
 
 def watching(job: int, run: int, send: Any, check: Callable[[], None]) -> Watch:
     """Return the `progress` of a search: it sends the best so far, and `check` can end the search."""
-    start, shown = time.perf_counter(), [-float("inf")]
+    start, shown, fit = time.perf_counter(), [-float("inf")], [""]
 
     def progress(now: Progress) -> None:
         sample = now.sample
         if sample is not None and sample.log_score > shown[0]:
             shown[0] = sample.log_score
+            fit[0] = str(sample.fit or "")
             send(*shape(sample, "best", job, Key(run)))
         best = shown[0] if isfinite(shown[0]) else None
-        send(Progressed(job, now.done, best, time.perf_counter() - start))
+        send(Progressed(job, now.done, best, time.perf_counter() - start, fit[0]))
         check()
 
     return progress
@@ -94,7 +95,7 @@ def regrow(job: Regrow, send: Any) -> Answer:
         if form.choices not in [choices, *(other.choices for other in forms)]:
             forms.append(form)
     if not forms:
-        raise CommandError("no-other-form", f"`{job.part}` has no other form here")
+        raise CommandError("no-other-form", f"{search.model.labels.label(job.part)} has no other form here")
     if job.strength is not None:
         forms = variety.ordered(whole, forms, job.count, job.strength)
     result = Result(search, forms, job.seed)
@@ -147,5 +148,6 @@ def _answer(
     outcomes = runs.store(result, model, run, file, origin)
     for sample, outcome in zip(result.samples, outcomes, strict=True):
         send(*shape(sample, "result", job, outcome.key))
-    losses = str(getattr(result.info, "losses", ""))
-    return Answer(outcomes=outcomes, interrupted=result.interrupted, note=losses)
+    losses = getattr(result.info, "losses", None)
+    note = "" if losses is None else losses.text(result.model.labels)
+    return Answer(outcomes=outcomes, interrupted=result.interrupted, note=note)

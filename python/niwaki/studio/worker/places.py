@@ -27,10 +27,10 @@ class PlaceRecorder(PlainRun):
         calls = self.stack()
         return calls[-1].span if calls else None
 
-    def sample(self, dist: Any) -> Any:
+    def sample(self, dist: Any, words: Sequence[str] | None = None) -> Any:
         """Make a choice, and note its place."""
         before = len(self.choices_made)
-        value = super().sample(dist)
+        value = super().sample(dist, words)
         if len(self.choices_made) > before:
             address = next(reversed(self.choices_made))
             self.places[address], self.distributions[address] = self._span(), dist

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import json
 from collections import OrderedDict
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 import niwaki as nw
 from niwaki.errors.files import ensure_folder, write_whole
+from niwaki.lang.labels import Labels
 from niwaki.result import Result, Sample
 from niwaki.search.data import Reader, Writer
 from niwaki.shell import run_files
@@ -95,24 +97,26 @@ def hold(job: Hold) -> Answer:
 def describe(job: DescribeRun, send: Any) -> Answer:
     """Send the choices and parts of a result, with their places in the source."""
     result = sample(job.source, job.number)
-    choices, families = result.choices, result.families
+    choices, families, options = result.choices, result.families, result.options
     try:
         model = models.reference(job.question.model).model
-        recorder = record(model, asks.arguments(job.question), choices)
+        recorder, labels = record(model, asks.arguments(job.question), choices), model.labels
     except CommandError:
         # Without permission to run the model's file there are no lines and sliders.
-        recorder = PlaceRecorder({})
+        recorder, labels = PlaceRecorder({}), result.search.model.labels
     infos = []
     for address, value in choices.items():
         if families[address] == "delta":
             continue
-        reach = slider(recorder.distributions.get(address), value)
+        named = list(options.get(address, ()))
+        reach = None if named else slider(recorder.distributions.get(address), value)
         low, high, whole = reach or (None, None, False)
         infos.append(
             ChoiceInfo(
                 address,
                 families[address],
                 shown(value),
+                named,
                 low,
                 high,
                 whole,
@@ -120,8 +124,19 @@ def describe(job: DescribeRun, send: Any) -> Answer:
             )
         )
     parts = [PartInfo(part.address, _place(recorder.places.get(part.address))) for part in result.parts]
-    send(Described(job.id, job.key, infos, parts))
+    addresses = [*choices, *(part.address for part in parts)]
+    send(Described(job.id, job.key, infos, parts, _labels(labels, addresses)))
     return Answer()
+
+
+def _labels(labels: Labels, addresses: Iterable[str]) -> dict[str, tuple[str, str]]:
+    """Return the labels of addresses, and of the calls and iterations around them, with their last steps."""
+    found: dict[str, tuple[str, str]] = {}
+    for address in addresses:
+        while address and address not in found:
+            found[address] = labels.label(address), labels.short(address)
+            address = address.rpartition("/")[0]
+    return found
 
 
 def shown(value: Any) -> Any:

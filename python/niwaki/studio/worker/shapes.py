@@ -51,7 +51,7 @@ def _fine(scene: Scene) -> list[Piece]:
     numbers = {part.address: number for number, part in enumerate(scene.parts)}
     return [
         (numbers[part.address], piece.paint, piece.vertices, piece.normals, piece.faces)
-        for part in part_meshes(scene)
+        for part in part_meshes(scene, closed=False)
         for piece in part.pieces
     ]
 

@@ -24,6 +24,7 @@ from niwaki.errors import FileError, NiwakiError
 from niwaki.errors.files import ensure_folder
 from niwaki.methods import explore
 from niwaki.result import Progress, Result, Sample
+from niwaki.shares import percent
 from niwaki.shell.references import ModelReference
 from niwaki.studio.messages import (
     Answer,
@@ -232,8 +233,8 @@ def _text(verdict: Judged, count: int) -> str:
     if verdict.stands is None:
         return text
     if verdict.stands:
-        much = 100.0 * (verdict.moved or 0.0)
-        return f"{text} In five simulated seconds no block moved by more than {much:.1f} % of its size."
+        much = percent(verdict.moved or 0.0)
+        return f"{text} In five simulated seconds the farthest move of a block was {much} of its size."
     return f"{text} In five simulated seconds {len(verdict.fallen)} of its blocks fell."
 
 

@@ -3,7 +3,7 @@
 import { computed, effect, signal } from "@preact/signals";
 import type { Shape } from "../messages";
 import * as store from "../store";
-import { fits, shapeOf } from "./gallery";
+import { shapeOf } from "./gallery";
 
 /** Fine shapes of the compared results that have arrived. */
 const fine = signal(new Map<string, [Shape, ArrayBuffer]>());
@@ -38,7 +38,7 @@ export function Sides() {
         return (
           <div key={store.nameOf(key)}>
             <button class="side-name" title="Make this the active result" onClick={() => pick(key)}>
-              <b>{place + 1}</b> {outcome && fits(outcome)}
+              <b>{place + 1}</b> {outcome?.fit}
             </button>
           </div>
         );

@@ -1,4 +1,4 @@
-// The legend of the difference from the target: colours, cells, and the two shares.
+// The legend of the difference from the target: colours, cells, and the fit.
 
 import * as store from "../store";
 import { KINDS } from "../view";
@@ -11,7 +11,7 @@ export function Legend() {
   if (!store.showDifference.value || difference === null) return null;
   const counts = store.counts.value;
   const colors = KINDS[store.theme.value];
-  const share = (a: number, b: number) => (a + b === 0 ? "0" : ((100 * a) / (a + b)).toFixed(1));
+  const outcome = store.view.value?.results.find(({ key }) => store.sameKey(key, difference.header.key));
   return (
     <div class="legend" role="status" aria-label="Difference from the target">
       {NAMES.map((name, k) => (
@@ -20,10 +20,7 @@ export function Legend() {
           {name} <b>{counts[name].toLocaleString("en")}</b>
         </span>
       ))}
-      <span class="quiet">
-        {share(counts.covered, counts.missing)} % of the {difference.header.is_picture ? "picture" : "target"} covered,{" "}
-        {share(counts.outside, counts.covered)} % of the model outside
-      </span>
+      {outcome !== undefined && <span class="quiet">{outcome.fit}</span>}
     </div>
   );
 }

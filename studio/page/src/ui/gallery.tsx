@@ -21,12 +21,6 @@ store.onShape((shape, payload) => {
 
 export const shapeOf = (name: string): [Shape, ArrayBuffer] | undefined => shapes.get(name);
 
-/** The share of the target that a result covers, and the share of the result outside; rounded to the worse side. */
-export function fits({ covered, outside }: Outcome): string {
-  if (covered === null || outside === null) return "";
-  return `${Math.floor(100 * covered + 1e-9)} % covered, ${Math.ceil(100 * outside - 1e-9)} % outside`;
-}
-
 export function Gallery() {
   const view = store.view.value;
   const strip = useRef<HTMLDivElement>(null);
@@ -81,7 +75,7 @@ function Card({ outcome, number }: { outcome: Outcome; number: number }) {
       onPictureOf(name, null);
     };
   }, [name, theme]);
-  const share = outcome.note || fits(outcome);
+  const share = outcome.note || outcome.fit;
   const score = outcome.log_score === null ? "impossible" : outcome.log_score.toFixed(1);
   return (
     <div
@@ -96,8 +90,7 @@ function Card({ outcome, number }: { outcome: Outcome; number: number }) {
       <div class="caption">
         <b>{number}</b>
         <span title={`${share || "no target"}, log score ${score}`}>
-          {outcome.note !== "" ? outcome.note : outcome.covered === null ? score : `${Math.floor(100 * outcome.covered + 1e-9)} %`}
-          {outcome.outside !== null && <em>−{Math.ceil(100 * outcome.outside - 1e-9)} %</em>}
+          {share || score}
         </span>
         <button
           class="icon-button tiny star"

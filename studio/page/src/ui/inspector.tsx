@@ -75,16 +75,16 @@ export function Inspector() {
       {store.kind.value === "structure" && <Balance />}
       <section class="choices" aria-label="Choices">
         {grouped(choices.slice(0, SHOWN), here).map(([call, members]) => (
-          <div key={call} role="group" aria-label={call || "Choices of the part itself"}>
-            {call !== "" && (
+          <div key={call} role="group" aria-label={call === here ? "Choices of the part itself" : headOf(call, here)}>
+            {call !== here && (
               <button
                 class="call"
-                title={`Select ${call}`}
-                onClick={() => (store.level.value = here === "" ? call : `${here}/${call}`)}
-                onMouseEnter={() => (store.hovered.value = here === "" ? call : `${here}/${call}`)}
+                title={`Select ${store.labelOf(call)}: ${call}`}
+                onClick={() => (store.level.value = call)}
+                onMouseEnter={() => (store.hovered.value = call)}
                 onMouseLeave={() => (store.hovered.value = null)}
               >
-                {call}
+                {headOf(call, here)}
               </button>
             )}
             {members.map((choice) => (
@@ -98,6 +98,12 @@ export function Inspector() {
   );
 }
 
+/** The label of a group of choices, as a heading. */
+function headOf(call: string, here: string): string {
+  const text = store.labelBelow(call, here);
+  return text.slice(0, 1).toUpperCase() + text.slice(1);
+}
+
 /** The calls around the selection, outermost first. */
 function Levels({ here }: { here: string }) {
   const steps = here === "" ? [] : here.split("/");
@@ -107,17 +113,22 @@ function Levels({ here }: { here: string }) {
       <button aria-current={here === ""} onClick={() => (store.level.value = "")}>
         {name}
       </button>
-      {steps.map((step, k) => {
+      {steps.map((_, k) => {
         const address = steps.slice(0, k + 1).join("/");
+        const around = steps.slice(0, k).join("/");
+        const next = steps.slice(0, k + 2).join("/");
+        // An iteration and the only call in it have the same label.
+        if (address !== here && store.labelOf(address) === store.labelOf(next)) return null;
         return (
           <button
             key={address}
+            title={address}
             aria-current={address === here}
             onClick={() => (store.level.value = address)}
             onMouseEnter={() => (store.hovered.value = address)}
             onMouseLeave={() => (store.hovered.value = null)}
           >
-            {step}
+            {store.labelBelow(address, around)}
           </button>
         );
       })}
@@ -134,28 +145,28 @@ function Source({ place }: { place: Place }) {
   );
 }
 
-/** Groups choices by their calls, with names relative to the selection; the selection's own choices come first. */
+/** Groups choices by the addresses of their calls; the selection's own choices come first. */
 function grouped(choices: ChoiceInfo[], here: string): [string, ChoiceInfo[]][] {
-  const groups = new Map<string, ChoiceInfo[]>([["", []]]);
+  const groups = new Map<string, ChoiceInfo[]>([[here, []]]);
   for (const choice of choices) {
-    const call = choice.address.slice(here === "" ? 0 : here.length + 1).split("/").slice(0, -1).join("/");
+    const call = choice.address.split("/").slice(0, -1).join("/");
     groups.set(call, [...(groups.get(call) ?? []), choice]);
   }
   return [...groups].filter(([, members]) => members.length > 0);
 }
 
 function Choice({ choice }: { choice: ChoiceInfo }) {
-  const name = choice.address.split("/").pop()!;
+  const name = store.labelBelow(choice.address, choice.address.split("/").slice(0, -1).join("/"));
   const [moving, setMoving] = useState<number | null>(null);
   const isBoolean = typeof choice.value === "boolean";
   const isHeld = store.heldParts.value.has(choice.address);
-  const set = (value: number | boolean, phase: "move" | "end") =>
+  const set = (value: number | boolean | string, phase: "move" | "end") =>
     void store.tell({ kind: "choose", address: choice.address, value, phase });
   const step = choice.is_whole ? 1 : ((choice.high ?? 1) - (choice.low ?? 0)) / 200;
   const where = choice.place === null ? "" : `, line ${choice.place.line}`;
   return (
     <div class="choice">
-      <label title={`${choice.address}: ${choice.family}${where}`}>
+      <label title={`${store.labelOf(choice.address)}\n${choice.address}: ${choice.family}${where}`}>
         <span>{name}</span>
         {isBoolean ? (
           <input
@@ -163,6 +174,12 @@ function Choice({ choice }: { choice: ChoiceInfo }) {
             checked={choice.value}
             onChange={(event) => set(event.currentTarget.checked, "end")}
           />
+        ) : choice.options.length > 0 ? (
+          <select value={choice.value} onChange={(event) => set(event.currentTarget.value, "end")}>
+            {choice.options.map((option) => (
+              <option key={option}>{option}</option>
+            ))}
+          </select>
         ) : choice.low === null ? null : (
           <Field
             type="range"
@@ -180,12 +197,12 @@ function Choice({ choice }: { choice: ChoiceInfo }) {
             }}
           />
         )}
-        <output>{shown(moving ?? choice.value)}</output>
+        {choice.options.length === 0 && <output>{shown(moving ?? choice.value)}</output>}
       </label>
       <button
         class="icon-button tiny"
         aria-pressed={isHeld}
-        title={isHeld ? `Free ${choice.address}` : `Hold ${choice.address}`}
+        title={`${isHeld ? "Free" : "Hold"} ${store.labelOf(choice.address)}`}
         onClick={() => store.holdOrFree(choice.address)}
       >
         <Icon name="pin" filled={isHeld} />

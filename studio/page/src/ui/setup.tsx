@@ -225,7 +225,7 @@ function Search({ settings }: { settings: Settings }) {
         <button class="primary stop" onClick={store.stop} title="Stop and keep the results so far (Esc)">
           Stop
           <small>
-            {running.seconds.toFixed(1)} s{running.best !== null && ` · best ${running.best.toFixed(1)}`}
+            {running.seconds.toFixed(1)} s{running.fit !== "" && ` · ${running.fit}`}
           </small>
         </button>
       )}
@@ -235,10 +235,10 @@ function Search({ settings }: { settings: Settings }) {
           {[...store.heldParts.value].map((part) => (
             <li key={part}>
               <Icon name="pin" filled />
-              <button class="address" onClick={() => (store.level.value = part)}>
-                {part}
+              <button class="address" title={part} onClick={() => (store.level.value = part)}>
+                {store.labelOf(part)}
               </button>
-              <button class="icon-button tiny" title={`Free ${part}`} onClick={() => store.holdOrFree(part)}>
+              <button class="icon-button tiny" title={`Free ${store.labelOf(part)}`} onClick={() => store.holdOrFree(part)}>
                 <Icon name="close" />
               </button>
             </li>

@@ -15,7 +15,7 @@ use super::journal::Birth;
 use super::readers::Reader;
 use super::slot::Slot;
 use super::trace::{ChoiceAt, Kept};
-use crate::code::{Args, Operand, Site, SiteId, SiteKind, Source};
+use crate::code::{Operand, Site, SiteId, SiteKind, Source};
 use crate::fault::Fault;
 use crate::value::{Value, identical, log_density, ops};
 use niwaki_geom::{Primitive, Shape};
@@ -203,16 +203,19 @@ impl<S: Scalar> Kept<S> {
             return Ok(false);
         }
         if let SiteKind::Sample(Source::Family(family)) = site.kind {
-            machine.charge_rows(state, self, r, site.args, family)?;
+            machine.charge_rows(state, self, r, site.parameters(), family)?;
         }
         let mut built = None;
         let held = machine.held;
-        let dist = machine.dist(state, r, site, site.args, &mut built)?;
+        let dist = machine.dist(state, r, site, site.parameters(), &mut built)?;
         if let Some(held) = held
             && (!slot.is_filled() || slot.is_held())
             && let Some((number, value)) = held.find(join(state.nodes[node.0 as usize].path, site.key))
         {
-            let log = check(log_density(dist, value)?.value(), "a log density")?;
+            let value = At { site, function: r.f, node, state, program }.own_value(value)?.into_owned();
+            let log = check(log_density(dist, &value)?.value(), "a log density")?;
+            // A held word has another number where the options have another order.
+            let is_moved = slot.is_filled() && !identical(&value, &state.registers[place]);
             let is_new = !slot.is_filled();
             if is_new {
                 self.journal.more().met.push((number, 1));
@@ -220,11 +223,13 @@ impl<S: Scalar> Kept<S> {
                 self.change.factors += 1;
                 self.change.log_factors.add(log);
                 self.write_slot(self.quiet, at, Slot { held: number, mark: Slot::HELD, log });
-                self.write_to(state, self.quiet, place, value.clone());
             } else if log.to_bits() != slot.log.to_bits() {
                 self.set_log(self.quiet, at, log, false);
             }
-            return if log == f64::NEG_INFINITY { Err(Halt::Impossible) } else { Ok(is_new) };
+            if is_new || is_moved {
+                self.write_to(state, self.quiet, place, value);
+            }
+            return if log == f64::NEG_INFINITY { Err(Halt::Impossible) } else { Ok(is_new || is_moved) };
         }
         let family = dist.family() as u32;
         if slot.is_filled() && slot.mark & Slot::FAMILY == family && fits(dist, &state.registers[place]) {
@@ -290,7 +295,7 @@ impl<S: Scalar> Kept<S> {
                 Some(log) => log,
                 None => {
                     let mut built = None;
-                    let args = Args { len: last as u16, ..site.args };
+                    let args = site.parameters();
                     let value = r.get(state, &machine.scratch, operand).clone();
                     if let SiteKind::Observe(Source::Family(family)) = site.kind {
                         machine.charge_rows(state, self, r, args, family)?;

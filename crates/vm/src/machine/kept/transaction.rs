@@ -298,7 +298,7 @@ impl<S: Scalar> Machine<'_, S> {
         let place = base + site.to.index();
         let r = super::Registers { f, base, outer, scratch: 0 };
         let mut built = None;
-        let proposal = self.dist(state, r, site, site.args, &mut built).and_then(|dist| {
+        let proposal = self.dist(state, r, site, site.parameters(), &mut built).and_then(|dist| {
             let (question, old) = (At { site, function: f, node, state, program }, &state.registers[place]);
             let proposed = proposer.propose(&question, dist, old, kept.slots[at].log)?;
             let log = if P::FROM_PRIOR {

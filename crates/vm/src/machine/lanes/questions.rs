@@ -159,7 +159,7 @@ impl Run<'_, '_> {
         source: Source,
         answers: &mut A,
     ) -> Result<(), Divergence> {
-        let dists = self.dists(source, site.args)?;
+        let dists = self.dists(source, site.parameters())?;
         let at = self.at(site);
         let column = dists.with(|dists| answers.choices(&at, dists))?;
         self.lanes.state.logged += LOGGED;
@@ -217,7 +217,7 @@ impl Run<'_, '_> {
                 Factor::Condition
             }
             SiteKind::Observe(source) => {
-                let dists = self.dists(source, Args { len: last as u16, ..site.args })?;
+                let dists = self.dists(source, site.parameters())?;
                 dists.with(|dists| {
                     if let (Dists::Shared(dist), Side::All(value)) = (dists, &value) {
                         shared = log_density(dist, value)?;

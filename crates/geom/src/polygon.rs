@@ -1,0 +1,348 @@
+//! Simple polygons of a plane, as the sections of solids: their checks, their direction, triangles and rounded corners.
+
+use crate::error::{GeomError, bad_shape as bad};
+use crate::fine::crease::SHARP;
+use niwaki_math::polygon::{inset, twice_signed};
+use std::f64::consts::FRAC_PI_2;
+
+/// A point of the plane.
+pub type Pair = [f64; 2];
+
+/// The most points of a list.
+pub const MOST: usize = 1024;
+
+fn minus(a: Pair, b: Pair) -> Pair {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+fn dot(a: Pair, b: Pair) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+fn cross(a: Pair, b: Pair) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+/// Twice the area of a triangle, positive for counter-clockwise corners.
+fn turn(a: Pair, b: Pair, c: Pair) -> f64 {
+    cross(minus(b, a), minus(c, b))
+}
+
+fn unit(a: Pair) -> Pair {
+    let length = a[0].hypot(a[1]);
+    a.map(|x| x / length)
+}
+
+/// The corners counter-clockwise, for either direction of the list.
+pub fn counter_clockwise(mut corners: Vec<Pair>) -> Vec<Pair> {
+    if twice_signed(&corners) < 0.0 {
+        corners.reverse();
+    }
+    corners
+}
+
+/// Refuses a list with fewer points than `least` or more than `most`, with a number that is not finite, and with a point twice in
+/// a row. `what` begins the sentence: `polygon of an extrusion`.
+///
+/// # Errors
+/// `bad-shape`.
+pub fn check_points<const N: usize>(
+    what: &str,
+    points: &[[f64; N]],
+    (least, most): (usize, usize),
+) -> Result<(), GeomError> {
+    let count = points.len();
+    if !(least..=most).contains(&count) {
+        return bad(format!("the {what} has {count} points, expected {least} to {most}"));
+    }
+    if let Some(k) = points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
+        return bad(format!("point {k} of the {what} is {:?}, expected finite numbers", points[k]));
+    }
+    match points.windows(2).position(|pair| pair[0] == pair[1]) {
+        Some(k) => bad(format!("points {k} and {} of the {what} are the same", k + 1)),
+        None => Ok(()),
+    }
+}
+
+/// Refuses a polygon whose boundary meets itself. Its points passed [`check_points`]; `side` names a side by the number of its first point.
+///
+/// # Errors
+/// `bad-shape`.
+pub fn check_simple(what: &str, corners: &[Pair], side: &dyn Fn(usize) -> String) -> Result<(), GeomError> {
+    let n = corners.len();
+    let at = |k: usize| corners[k % n];
+    for k in 0..n {
+        let (a, b, c) = (at(k), at(k + 1), at(k + 2));
+        if turn(a, b, c) == 0.0 && dot(minus(b, a), minus(c, b)) < 0.0 {
+            return bad(format!("the {what} turns back on itself where {} ends", side(k)));
+        }
+    }
+    for i in 0..n {
+        // The first and the last side are neighbours.
+        for j in i + 2..n - usize::from(i == 0) {
+            if meet([at(i), at(i + 1)], [at(j), at(j + 1)]) {
+                return bad(format!("the {what} crosses itself: {} meets {}", side(i), side(j)));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Refuses the section of a solid unless it is a simple polygon.
+///
+/// # Errors
+/// `bad-shape`.
+pub fn check_section(what: &str, corners: &[Pair], most: usize) -> Result<(), GeomError> {
+    check_points(what, corners, (3, most))?;
+    let last = corners.len() - 1;
+    if corners[0] == corners[last] {
+        return bad(format!(
+            "the first and the last point of the {what} are the same; it closes without the last"
+        ));
+    }
+    check_simple(what, corners, &|k| {
+        format!("the side from point {} to point {}", k % (last + 1), (k + 1) % (last + 1))
+    })
+}
+
+/// True when two sides share a point.
+fn meet([a, b]: [Pair; 2], [c, d]: [Pair; 2]) -> bool {
+    let apart = |k: usize| a[k].max(b[k]) < c[k].min(d[k]) || c[k].max(d[k]) < a[k].min(b[k]);
+    if apart(0) || apart(1) {
+        return false;
+    }
+    let [p, q] = [turn(a, b, c), turn(a, b, d)];
+    let [r, s] = [turn(c, d, a), turn(c, d, b)];
+    let one_side = |x: f64, y: f64| x > 0.0 && y > 0.0 || x < 0.0 && y < 0.0;
+    !one_side(p, q) && !one_side(r, s)
+}
+
+/// Triangles that fill a counter-clockwise polygon: ears are cut off, one after the other (Meisters 1975). Each side is one of exactly
+/// one triangle, also for a polygon on the verge of crossing itself.
+pub fn triangles(corners: &[Pair]) -> Vec<[u32; 3]> {
+    let mut rest: Vec<usize> = (0..corners.len()).collect();
+    let mut faces = Vec::with_capacity(corners.len().saturating_sub(2));
+    let mut k = 0;
+    while rest.len() > 3 {
+        let n = rest.len();
+        let ear = |k: usize| {
+            let [a, b, c] = [rest[(k + n - 1) % n], rest[k % n], rest[(k + 1) % n]].map(|i| corners[i]);
+            let holds = |p: Pair| {
+                p != a
+                    && p != b
+                    && p != c
+                    && turn(a, b, p) >= 0.0
+                    && turn(b, c, p) >= 0.0
+                    && turn(c, a, p) >= 0.0
+            };
+            turn(a, b, c) > 0.0 && !rest.iter().any(|i| holds(corners[*i]))
+        };
+        // Rounding may hide every ear: then the sharpest corner goes.
+        let at = (k..k + n).find(|k| ear(*k)).unwrap_or(k) % n;
+        faces.push([rest[(at + n - 1) % n], rest[at], rest[(at + 1) % n]].map(|i| i as u32));
+        rest.remove(at);
+        // The next ear is looked for beyond the neighbour, so that triangles do not all share a corner.
+        k = at + 1;
+    }
+    faces.extend(<[usize; 3]>::try_from(rest).ok().map(|last| last.map(|i| i as u32)));
+    faces
+}
+
+/// A vertex of a rounded polygon: it lies at `core + out * reach`, where the reach is the width of the rounding on the boundary, and
+/// zero on the polygon that is moved inwards by this width.
+#[derive(Clone, Copy, Debug)]
+pub struct Rounded {
+    /// The corner that it belongs to.
+    pub corner: usize,
+    /// Its place on the inner polygon.
+    pub core: Pair,
+    /// Its way out, for a reach of 1.
+    pub out: Pair,
+    /// The outward normal.
+    pub normal: Pair,
+}
+
+/// The largest width by which the sides of a counter-clockwise polygon can move inwards and stay apart, about.
+pub fn room(corners: &[Pair]) -> f64 {
+    let n = corners.len();
+    let at = |k: usize| corners[k % n];
+    let along: Vec<Pair> = (0..n).map(|k| unit(minus(at(k + 1), at(k)))).collect();
+    // Tangent of half the turn at the start of each side.
+    let half: Vec<f64> = (0..n)
+        .map(|k| {
+            let (a, b) = (along[(k + n - 1) % n], along[k]);
+            (0.5 * cross(a, b).atan2(dot(a, b))).tan()
+        })
+        .collect();
+    let mut room = f64::INFINITY;
+    for i in 0..n {
+        let side = minus(at(i + 1), at(i));
+        let lost = half[i] + half[(i + 1) % n];
+        if lost > 0.0 {
+            room = room.min(side[0].hypot(side[1]) / lost);
+        }
+        for j in i + 2..n - usize::from(i == 0) {
+            // Sides that face each other, by more than 60 degrees.
+            if dot(along[i], along[j]) < 0.5 {
+                room = room.min(0.5 * distance([at(i), at(i + 1)], [at(j), at(j + 1)]));
+            }
+        }
+    }
+    room
+}
+
+/// Distance of two segments that do not cross.
+fn distance(s: [Pair; 2], t: [Pair; 2]) -> f64 {
+    let to = |p: Pair, [a, b]: [Pair; 2]| {
+        let (side, from) = (minus(b, a), minus(p, a));
+        let share = (dot(from, side) / dot(side, side)).clamp(0.0, 1.0);
+        (from[0] - side[0] * share).hypot(from[1] - side[1] * share)
+    };
+    to(s[0], t).min(to(s[1], t)).min(to(t[0], s)).min(to(t[1], s))
+}
+
+/// The vertices of a counter-clockwise polygon, in order: sharp corners that stick out become arcs of `width`, of `arc` steps for a
+/// quarter turn; gentle corners are one vertex with a normal between those of the sides, other corners two. Corners that are not `round`
+/// keep their place and the normals of their sides.
+pub fn rounded(corners: &[Pair], width: f64, arc: usize, round: &dyn Fn(usize) -> bool) -> Vec<Rounded> {
+    let n = corners.len();
+    let along = |k: usize| unit(minus(corners[(k + 1) % n], corners[k % n]));
+    let inner = (width > 0.0).then(|| inset(corners, width)).flatten();
+    let width = if inner.is_some() { width } else { 0.0 };
+    let inner = inner.unwrap_or_else(|| corners.to_vec());
+    let mut vertices = Vec::new();
+    for corner in 0..n {
+        let (before, after) = (along(corner + n - 1), along(corner));
+        let (sin, cos) = (cross(before, after), dot(before, after));
+        let outward = |along: Pair| [along[1], -along[0]];
+        let is_round = round(corner);
+        let core = if is_round { inner[corner] } else { corners[corner] };
+        // Where the corner itself is, seen from the inner polygon.
+        let out =
+            if is_round && width > 0.0 { minus(corners[corner], core).map(|x| x / width) } else { [0.0; 2] };
+        let mut push = |out: Pair, normal: Pair| vertices.push(Rounded { corner, core, out, normal });
+        if cos >= SHARP {
+            push(out, unit([before[1] + after[1], -before[0] - after[0]]));
+        } else if sin <= 0.0 || width == 0.0 || !is_round {
+            push(out, outward(before));
+            push(out, outward(after));
+        } else {
+            let turn = sin.atan2(cos);
+            let steps = ((turn / FRAC_PI_2 * arc as f64).ceil() as usize).max(1);
+            for k in 0..=steps {
+                let (sin, cos) = (turn * k as f64 / steps as f64).sin_cos();
+                let [x, y] = outward(before);
+                let normal = if k == steps { outward(after) } else { [x * cos - y * sin, x * sin + y * cos] };
+                push(normal, normal);
+            }
+        }
+    }
+    vertices
+}
+
+#[cfg(test)]
+mod tests {
+    //! Ears fill concave polygons, in either direction and with points within sides; what meets itself is refused.
+    use super::*;
+    use niwaki_math::polygon::area;
+
+    /// A star, a comb, a spiral, a square with points within its sides, and a polygon with a needle.
+    fn polygons() -> Vec<Vec<Pair>> {
+        let star = (0..10).map(|k| {
+            let (sin, cos) = (0.3 + 0.2 * std::f64::consts::PI * f64::from(k)).sin_cos();
+            let radius = if k % 2 == 0 { 2.0 } else { 0.5 };
+            [radius * cos, radius * sin]
+        });
+        let comb = (0..8).flat_map(|k| [[f64::from(k), 3.0], [f64::from(k) + 0.5, 0.1]]);
+        let spiral = vec![
+            [0.0, 0.0],
+            [5.0, 0.0],
+            [5.0, 5.0],
+            [1.0, 5.0],
+            [1.0, 2.0],
+            [3.0, 2.0],
+            [3.0, 3.0],
+            [2.0, 3.0],
+        ];
+        let spiral = [&spiral[..], &[[2.0, 4.0], [4.0, 4.0], [4.0, 1.0], [0.0, 1.0]]].concat();
+        let square: Vec<Pair> = (0..8)
+            .map(|k| {
+                [
+                    [0.0, 0.0],
+                    [1.0, 0.0],
+                    [2.0, 0.0],
+                    [2.0, 1.0],
+                    [2.0, 2.0],
+                    [1.0, 2.0],
+                    [0.0, 2.0],
+                    [0.0, 1.0],
+                ][k]
+            })
+            .collect();
+        let needle =
+            vec![[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [2.0, 2.0], [2.0, 1e-9], [1.9, 2.0], [0.0, 2.0]];
+        vec![star.collect(), comb.chain([[8.0, 4.0], [-1.0, 4.0]]).collect(), spiral, square, needle]
+    }
+
+    #[test]
+    fn ears_fill_a_polygon_of_either_direction() {
+        for corners in polygons() {
+            check_simple("polygon", &corners, &|k| format!("side {k}")).unwrap();
+            let forth = counter_clockwise(corners.clone());
+            let back = counter_clockwise(corners.into_iter().rev().collect());
+            assert_eq!(forth, back);
+            let faces = triangles(&forth);
+            assert_eq!(faces.len(), forth.len() - 2);
+            let areas: Vec<f64> = faces
+                .iter()
+                .map(|f| f.map(|i| forth[i as usize]))
+                .map(|[a, b, c]| 0.5 * turn(a, b, c))
+                .collect();
+            assert!(areas.iter().all(|area| *area > 0.0), "{areas:?}");
+            assert!((areas.iter().sum::<f64>() / area(&forth) - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_polygon_that_meets_itself_is_refused() {
+        let error = |corners: &[Pair]| {
+            check_points("polygon", corners, (3, MOST))
+                .and_then(|()| check_simple("polygon", corners, &|k| format!("side {k}")))
+                .map_or_else(|error| error.message, |()| String::new())
+        };
+        for (corners, expected) in [
+            (&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]][..], "crosses itself: side 0 meets side 2"),
+            (
+                &[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [1.0, 0.0], [0.0, 2.0]],
+                "crosses itself: side 0 meets side 2",
+            ),
+            (&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]], "turns back on itself where side 1 ends"),
+            (&[[0.0, 0.0], [1.0, 0.0]], "has 2 points, expected 3 to 1024"),
+            (&[[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 1.0]], "points 1 and 2 of the polygon are the same"),
+            (&[[0.0, 0.0], [1.0, f64::NAN], [0.0, 1.0]], "point 1 of the polygon is [1.0, NaN]"),
+        ] {
+            assert!(error(corners).contains(expected), "{}", error(corners));
+        }
+    }
+
+    #[test]
+    fn rounded_corners_lie_on_their_arcs() {
+        let square = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+        assert!((room(&square) - 1.0).abs() < 1e-12);
+        let vertices = rounded(&square, 0.5, 4, &|_| true);
+        assert_eq!(vertices.len(), 20);
+        for v in &vertices {
+            assert!((v.out[0].hypot(v.out[1]) - 1.0).abs() < 1e-12 && v.out == v.normal);
+            assert!(v.core.iter().all(|x| (x - 1.0).abs() == 0.5));
+        }
+        // A corner that points inwards stays sharp.
+        let hook = [[0.0, 0.0], [3.0, 0.0], [3.0, 3.0], [2.0, 3.0], [2.0, 1.0], [0.0, 1.0]];
+        let inner = rounded(&hook, 0.1, 4, &|_| true).into_iter().filter(|v| v.corner == 4);
+        assert!(
+            inner
+                .map(|v| [v.core[0] + 0.1 * v.out[0], v.core[1] + 0.1 * v.out[1]])
+                .all(|p| { (p[0] - 2.0).abs() < 1e-12 && (p[1] - 1.0).abs() < 1e-12 })
+        );
+        assert!((room(&hook) - 0.5).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,189 @@
+"""Labels: names for people of choices, parts, calls and iterations, beside the addresses of files and commands.
+
+    while[0]/wings/while[1]/width        Wing 1 › section 2 › width
+    bernoulli                            Tower?
+    i[2]/storey/uniform                  Storey 3 › height
+
+`labelling` makes the labels of a program's sites when they are first asked for; this file puts them together for an
+address. A program has a table of sites for each activation, a function or the body of a loop. Iterations count from 1.
+
+An iteration of a loop without a name of its own takes the name of what it makes: where a loop only calls `wing`, the
+iteration and the call are both "wing 1". Where it makes several things, it is a "section", and the label of a call
+starts with the call: `while[0]/wings` is "wing 1", `while[0]/fins` is "fin 1".
+
+An address of a function that only the run knows, or of a program without a source, has the words of its components.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from niwaki.lang.nouns import singular, words
+
+#: What stands between the steps of a label.
+SEPARATOR = " › "
+#: The activation of a function that only the run knows.
+UNKNOWN = -1
+#: Labels of components that say nothing to a reader.
+PLAIN = {
+    "apply": "call",
+    "bernoulli": "flip",
+    "categorical": "choice",
+    "discrete_uniform": "choice",
+    "emit": "part",
+    "infer": "inner search",
+}
+
+_LOOP = re.compile(r"([^\[\]()]*)\[(\d+)\](#\d+)?")
+_MEMO = re.compile(r"([^()]*?)(?:#\d+)?(\(.*\))")
+_NUMBERED = re.compile(r"(.*)#(\d+)")
+
+
+@dataclass(frozen=True)
+class Site:
+    """The label of a site.
+
+    Attributes
+    ----------
+    text : str
+        The label; for a loop, the label of an iteration without its number.
+    inside : int
+        The number of the callee's activation, or of the loop's.
+    joins : mapping
+        For a loop: labels, without the number, of an iteration together with the component after it.
+    """
+
+    text: str
+    inside: int = UNKNOWN
+    joins: Mapping[str, str] = field(default_factory=dict)
+
+
+#: The sites of an activation by kind ("end", "call", "loop") and component; a loop's has empty brackets.
+Table = Mapping[tuple[str, str], Site]
+
+
+@dataclass(frozen=True)
+class Labels:
+    """The labels of a program.
+
+    Attributes
+    ----------
+    tables : sequence
+        The sites of each activation; the model's is the first.
+    functions : mapping
+        The activations of functions by name, where it is the name of one function.
+    """
+
+    tables: Sequence[Table] = ()
+    functions: Mapping[str, int] = field(default_factory=dict)
+
+    def label(self, address: str) -> str:
+        """Return the label of a choice, a part, a call or an iteration."""
+        return _path(self.steps(address))
+
+    def short(self, address: str) -> str:
+        """Return the last step of the label, as it is read below the label of the call around it."""
+        return self.steps(address)[-1]
+
+    def steps(self, address: str) -> list[str]:
+        """Return the steps of a label, outermost first."""
+        return [text if number is None else f"{text} {number}" for text, number in self._steps(address)]
+
+    def kind(self, address: str) -> str:
+        """Return the last step without the number of an iteration: the same for all parts of a loop."""
+        *_, (text, _) = self._steps(address)
+        return text
+
+    def site(self, function: str, component: str) -> str:
+        """Return the label of a choice by its function, with the loops around it (`wings/while#0`), in all its runs."""
+        name, *loops = function.split("/")
+        inside = self.functions.get(name.rpartition(".")[2], UNKNOWN)
+        steps = [] if inside == 0 else [words(name.rpartition(".")[2])]
+        for loop in loops:
+            of, _, number = loop.partition("#")
+            key = "loop", f"{of}[]" if number in ("", "0") else f"{of}[]#{number}"
+            known = self.tables[inside].get(key) if inside != UNKNOWN else None
+            inside = known.inside if known is not None else UNKNOWN
+            if known is not None and component in known.joins:
+                return _path([*steps, known.text])
+            steps.append(known.text if known is not None else "step" if is_anonymous(of) else words(of))
+        found = self._found(inside, component, True)
+        return _path([*steps, found.text if found is not None else _plain(component)])
+
+    def _steps(self, address: str) -> Iterator[tuple[str, int | None]]:
+        """Yield the steps, each with the number of its iteration."""
+        components = address.split("/")
+        inside = 0 if self.tables else UNKNOWN
+        at = 0
+        while at < len(components):
+            component, is_last = components[at], at + 1 == len(components)
+            at += 1
+            if (loop := _LOOP.fullmatch(component)) is not None:
+                site = self._loop(inside, loop)
+                inside, number = site.inside, int(loop[2]) + 1
+                if is_last or (joined := self._joined(site, inside, components, at)) is None:
+                    yield site.text, number
+                    continue
+                yield joined, number
+                if (after := self._found(inside, components[at], at + 1 == len(components))) is not None:
+                    inside = after.inside
+                else:
+                    inside = self._function(components[at])
+                at += 1
+                continue
+            if (memo := _MEMO.fullmatch(component)) is not None:
+                yield f"{words(memo[1].rpartition('.')[2])} {_argument(memo[2])}", None
+                inside = self._function(memo[1])
+                continue
+            found = self._found(inside, component, is_last)
+            yield found.text if found is not None else _plain(component), None
+            inside = found.inside if found is not None else self._function(component)
+
+    def _found(self, inside: int, component: str, is_last: bool) -> Site | None:
+        if inside == UNKNOWN:
+            return None
+        table = self.tables[inside]
+        kinds = ("end", "call") if is_last else ("call",)
+        return next((table[kind, component] for kind in kinds if (kind, component) in table), None)
+
+    def _loop(self, inside: int, loop: re.Match[str]) -> Site:
+        key = "loop", f"{loop[1]}[]{loop[3] or ''}"
+        if inside != UNKNOWN and key in self.tables[inside]:
+            return self.tables[inside][key]
+        return Site("step" if is_anonymous(loop[1]) else words(loop[1]))
+
+    def _joined(self, site: Site, inside: int, components: list[str], at: int) -> str | None:
+        """Return the label of an iteration together with the component after it, or None if each has its own."""
+        after = components[at]
+        if inside != UNKNOWN:
+            return site.joins.get(after)
+        is_call = at + 1 < len(components) and _LOOP.fullmatch(after) is None and "(" not in after
+        return singular(_plain(after)) if is_call and site.text == "step" else None
+
+    def _function(self, component: str) -> int:
+        return self.functions.get(component.partition("#")[0].rpartition(".")[2], UNKNOWN)
+
+
+def _path(steps: Sequence[str]) -> str:
+    text = SEPARATOR.join(steps)
+    return text[:1].upper() + text[1:]
+
+
+def is_anonymous(name: str) -> bool:
+    """Return whether the name of a loop says nothing to a reader: `i`, `_`, `while`, `map`."""
+    return len(name) < 2 or name.startswith("_") or name in ("while", "map", "filter", "sorted", "min", "max")
+
+
+def _plain(component: str) -> str:
+    """Return the words of a component, with its number."""
+    numbered = _NUMBERED.fullmatch(component)
+    name, number = (numbered[1], f" {int(numbered[2]) + 1}") if numbered is not None else (component, "")
+    return PLAIN.get(name, words(name)) + number
+
+
+def _argument(text: str) -> str:
+    """Return the arguments of a memoised call; a single one without brackets."""
+    inner = text[1:-1]
+    return inner if re.fullmatch(r"[\w.+-]+", inner) else text.replace("\\x2f", "/")
