@@ -11,6 +11,7 @@ growth.gif: the best of the ships, growing; letters.png: a word in vines and one
 from __future__ import annotations
 
 import io
+import itertools
 import math
 import sys
 from pathlib import Path
@@ -33,6 +34,12 @@ from niwaki.targets import examples as targets
 from PIL import Image
 
 LARGEST = 300_000
+
+#: A line from the foot of a vase over its rim into it: radii and heights.
+VASE = [(0.0, 0.0), (0.4, 0.0), (0.45, 0.1), (0.7, 0.5), (0.72, 0.7), (0.6, 1.1), (0.35, 1.4), (0.35, 1.5), (0.5, 1.8)]
+VASE += [(0.42, 1.8), (0.27, 1.5), (0.27, 1.4), (0.52, 1.1), (0.62, 0.6), (0.0, 0.2)]
+#: A flat bar.
+BAR = [(-0.2, -0.07), (0.2, -0.07), (0.2, 0.07), (-0.2, 0.07)]
 
 
 def draw(folder: Path) -> list[Path]:
@@ -67,6 +74,7 @@ def solids() -> Image.Image:
     low, middle, high = ((0.0, y, 0.0) for y in (-1.0, 0.2, 1.0))
     forward, up = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
     turned = nw.rotation((1.0, 0.0, 0.0), -math.pi / 2)
+    coil = [(0.8 * math.cos(t), 0.25 * t - 0.8, 0.8 * math.sin(t)) for t in np.linspace(0.0, 7.0, 36).tolist()]
     square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [0, 0, 1.4]])
     examples = [
         nw.box(origin, (1.6, 1.2, 1.0)),
@@ -79,6 +87,11 @@ def solids() -> Image.Image:
         nw.ellipsoid(origin, (2.0, 1.0, 1.2)),
         nw.torus(origin, 0.8, 0.25),
         nw.arch(origin, (1.8, 1.7, 0.6), 0.35),
+        nw.extrude(star(), 0.7, (0.0, -0.3, 0.0)),
+        nw.extrude(star(), 1.8, (0.0, -0.9, 0.0), twist=0.9, taper=0.5),
+        nw.revolve(VASE, (0.0, -0.9, 0.0)),
+        nw.sweep(BAR, coil, scale=0.3),
+        nw.hull([*itertools.product((-0.7, 0.7), (-0.7,), (-0.5, 0.5)), (-0.2, 0.7, 0.0), (0.7, 0.3, 0.5)]),
         nw.limb(low, high, 0.5, 0.3, end_normal=(0.5, 1.0, 0.0)),
         nw.segment(*((at, forward, up, radius) for at, radius in ((low, 0.5), (middle, 0.4), (high, 0.3)))),
         nw.mesh(square, [[0, 3, 2], [0, 2, 1], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]], rotation=turned),
@@ -98,6 +111,12 @@ def holes() -> Image.Image:
     block = nw.box((0.5, 0.4, 0.6), (1.2, 1.2, 1.2), color=blue)
     scenes = [Scene([("part", [shape])]) for shape in (wall, ball - block, ball & block, ball | block)]
     return sheet(scenes, columns=4, size=(180, 120), elevation=20.0)
+
+
+def star() -> list[tuple[float, float]]:
+    """The outline of a star of five points."""
+    radii = [0.9, 0.4] * 5
+    return [(r * math.sin(k * math.pi / 5), r * math.cos(k * math.pi / 5)) for k, r in enumerate(radii)]
 
 
 def fleet(ships: Result) -> Image.Image:

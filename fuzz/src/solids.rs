@@ -2,6 +2,7 @@
 
 use crate::numbers::{below, near, ordinary, point, real, size};
 use arbitrary::Unstructured;
+use niwaki_geom::solids::{Extrusion, PointHull, Revolution, Solid, Sweep};
 use niwaki_geom::{Frame, GeomError, Look, Mat3, Operation, Primitive, Shape, TriMesh, Vec3, vec3};
 use std::sync::Arc;
 
@@ -19,7 +20,7 @@ pub fn shape(u: &mut Unstructured<'_>) -> Option<Shape> {
         _ => None,
     };
     let look = Look { rotation, ..Look::default() };
-    let made = match below(u, 10) {
+    let made = match below(u, 14) {
         0 | 1 => Shape::cuboid(at(u), vec3(length(u), length(u), length(u)), &look),
         2 => {
             let (center, size) = (at(u), vec3(length(u), length(u), length(u)));
@@ -41,7 +42,8 @@ pub fn shape(u: &mut Unstructured<'_>) -> Option<Shape> {
             let b = if strange { b } else { vec3(b.x, b.y, a.z) };
             Shape::stroke(a, b, (length(u), length(u)), &look)
         }
-        _ => Shape::ellipse(at(u), (length(u), length(u)), ordinary(u), &look),
+        9 => Shape::ellipse(at(u), (length(u), length(u)), ordinary(u), &look),
+        kind => of_points(u, kind, &at, &length, &look),
     };
     let mut shape = made.ok()?;
     if below(u, 5) == 0 {
@@ -52,6 +54,38 @@ pub fn shape(u: &mut Unstructured<'_>) -> Option<Shape> {
     let aabb = shape.aabb();
     assert!(aabb.low.is_finite() && aabb.high.is_finite(), "{shape:?}");
     Some(shape)
+}
+
+/// A solid of up to nine points.
+fn of_points(
+    u: &mut Unstructured<'_>,
+    kind: usize,
+    at: &dyn Fn(&mut Unstructured<'_>) -> Vec3,
+    length: &dyn Fn(&mut Unstructured<'_>) -> f64,
+    look: &Look,
+) -> Result<Shape, GeomError> {
+    let points: Box<[Vec3]> = (0..below(u, 10)).map(|_| at(u)).collect();
+    // One time in two around the origin, which is a simple polygon more often.
+    let around = below(u, 2) == 0;
+    let pair = |(k, p): (usize, &Vec3)| {
+        let (sin, cos) = (k as f64).sin_cos();
+        if around { [cos * p.x.abs(), sin * p.x.abs()] } else { [p.x, p.y] }
+    };
+    let pairs: Box<[[f64; 2]]> = points.iter().enumerate().map(pair).collect();
+    let solid: Solid = match kind {
+        10 => Arc::new(Extrusion { polygon: pairs, height: length(u), twist: ordinary(u), taper: length(u) })
+            .into(),
+        11 => {
+            let outside = pairs.iter().map(|[x, y]| [x.abs(), *y]).collect();
+            Arc::new(Revolution { profile: outside }).into()
+        }
+        12 => {
+            let path = (0..below(u, 6)).map(|_| at(u)).collect();
+            Arc::new(Sweep { profile: pairs, path, scale: length(u) }).into()
+        }
+        _ => Arc::new(PointHull { points }).into(),
+    };
+    Shape::placed(solid, at(u), Mat3::IDENTITY, look)
 }
 
 fn segment(

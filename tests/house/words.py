@@ -38,7 +38,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from niwaki.words.measures import Axis, Bark, Color, Frame, Rotation, make
+from niwaki.words.measures import Axis, Bark, Color, Frame, Pairs, Points, Rotation, make
 from niwaki.words.vectors import VecLike
 '''
 

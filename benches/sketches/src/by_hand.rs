@@ -1,6 +1,6 @@
 //! Loops by hand, for one case each: no sharing, no undo, one answer.
 
-use niwaki_geom::{Aabb, Convex, Grid, Vec3};
+use niwaki_geom::{Aabb, Convex, Grid, TriMesh, Vec3};
 use wide::f64x4;
 
 /// A grid of bits, rows of words along x.
@@ -62,6 +62,60 @@ pub fn aligned_box(bits: &mut Bits, target: &Bits, grid: &Grid, aabb: &Aabb) -> 
     for z in first[2]..=last[2] {
         for y in first[1]..=last[1] {
             bits.set(target, z * bits.dims[1] + y, first[0], last[0], &mut new);
+        }
+    }
+    new
+}
+
+/// Sets the cells whose middle is in a closed mesh: each triangle turns over the rest of the rows behind it. `rows` is empty before and after.
+pub fn closed(bits: &mut Bits, target: &Bits, grid: &Grid, mesh: &TriMesh, rows: &mut Bits) -> [u32; 2] {
+    let mut new = [0; 2];
+    let points: Vec<[f64; 3]> = mesh.vertices().iter().map(|p| grid.to_grid(*p).to_array()).collect();
+    let span = |a: usize, of: &[[f64; 3]]| {
+        of.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p[a]), high.max(p[a])))
+    };
+    // Middles of cells from `low` to `high`.
+    let middles = |(low, high): (f64, f64), count: usize| {
+        (low - 0.5).ceil().max(0.0) as usize
+            ..((high - 0.5).floor().min(count as f64 - 1.0) + 1.0).max(0.0) as usize
+    };
+    let (across, dims) = (bits.across, bits.dims);
+    for t in mesh.triangles() {
+        let [p, q, r] = t.map(|v| points[v as usize]);
+        let (u, v) = ([q[1] - p[1], q[2] - p[2]], [r[1] - p[1], r[2] - p[2]]);
+        let area = u[0] * v[1] - u[1] * v[0];
+        if area == 0.0 {
+            continue;
+        }
+        for z in middles(span(2, &[p, q, r]), dims[2]) {
+            for y in middles(span(1, &[p, q, r]), dims[1]) {
+                let w = [y as f64 + 0.5 - p[1], z as f64 + 0.5 - p[2]];
+                let (b, c) = ((w[0] * v[1] - w[1] * v[0]) / area, (u[0] * w[1] - u[1] * w[0]) / area);
+                if b < 0.0 || c < 0.0 || b + c > 1.0 {
+                    continue;
+                }
+                let x = p[0] + b * (q[0] - p[0]) + c * (r[0] - p[0]);
+                let start = (x - 0.5).ceil().max(0.0) as usize;
+                if start >= dims[0] {
+                    continue;
+                }
+                let row = (z * dims[1] + y) * across;
+                rows.words[row + start / 64] ^= !0 << (start % 64);
+                rows.words[row + start / 64 + 1..row + across].iter_mut().for_each(|word| *word = !*word);
+            }
+        }
+    }
+    for z in middles(span(2, &points), dims[2]) {
+        for y in middles(span(1, &points), dims[1]) {
+            let row = (z * dims[1] + y) * across;
+            for (word, at) in (row..row + across).enumerate() {
+                let cells = dims[0].saturating_sub(64 * word).min(64);
+                let within = if cells == 64 { !0 } else { (1 << cells) - 1 };
+                let fresh = std::mem::take(&mut rows.words[at]) & within & !bits.words[at];
+                bits.words[at] |= fresh;
+                new[0] += fresh.count_ones();
+                new[1] += (fresh & target.words[at]).count_ones();
+            }
         }
     }
     new

@@ -10,7 +10,7 @@ mod by_hand;
 mod peers;
 mod scenes;
 
-use by_hand::{Bits, Boxes, Oriented, aligned_box, convex, outline};
+use by_hand::{Bits, Boxes, Oriented, aligned_box, closed, convex, outline};
 use niwaki_geom::{Aabb, GeomError, Primitive, Sketch};
 use peers::Peer;
 use scenes::{Dice, Goals, KINDS, Maker, SIDE, SKETCHES, scene, seen};
@@ -163,14 +163,16 @@ fn limits(
         sketch
     };
     match name {
-        "volume" if has_a_loop(kind) => {
+        "volume" => {
             let grid = goals.target.grid();
             let target = Bits::of(grid.dims(), |cell| goals.target.contains(cell));
-            let add = |bits: &mut Bits, one: &Primitive| {
+            let mut rows = Bits::new(grid.dims());
+            let mut add = |bits: &mut Bits, one: &Primitive| {
                 let shape = &one.shapes()[0];
                 match shape.convex() {
-                    Some(solid) if !shape.is_aligned_box() => convex(bits, &target, grid, &solid),
-                    _ => aligned_box(bits, &target, grid, shape.aabb()),
+                    _ if shape.is_aligned_box() => aligned_box(bits, &target, grid, shape.aabb()),
+                    Some(solid) => convex(bits, &target, grid, &solid),
+                    None => closed(bits, &target, grid, &shape.world_mesh(), &mut rows),
                 }
             };
             let mut full = Bits::new(grid.dims());
@@ -182,11 +184,11 @@ fn limits(
             let mut cells = 0.0;
             let hand = median(made, |one| {
                 let mut new = [0; 2];
-                let bits = std::cell::RefCell::new((&mut bits, &mut new));
+                let bits = std::cell::RefCell::new((&mut bits, &mut new, &mut add));
                 let took = least(
                     || bits.borrow_mut().0.copy(&full),
                     || {
-                        let (bits, new) = &mut *bits.borrow_mut();
+                        let (bits, new, add) = &mut *bits.borrow_mut();
                         **new = add(bits, one);
                     },
                 );
@@ -198,7 +200,7 @@ fn limits(
             });
             vec![("hand", hand), ("differ", fewer), ("of", cells)]
         }
-        "silhouette" | "shadow" if has_a_loop(kind) => {
+        "silhouette" | "shadow" if made[0].shapes()[0].is_convex() => {
             let dims = [SIDE, SIDE, 1];
             let target = Bits::of(dims, |[x, y, _]| goals.on[y * SIDE + x]);
             let mut points = Vec::new();

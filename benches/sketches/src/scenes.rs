@@ -1,5 +1,6 @@
 //! What is measured: kinds of primitives, and sketches with a target.
 
+use niwaki_geom::solids::{Extrusion, PointHull, Revolution, Sweep};
 use niwaki_geom::view::camera::Camera;
 use niwaki_geom::view::{Lens, Light, shadow_rays};
 use niwaki_geom::{
@@ -40,8 +41,20 @@ impl Dice {
 }
 
 /// The kinds of primitives, in the order of the table.
-pub const KINDS: [&str; 8] =
-    ["aligned box", "box", "cylinder", "limb", "box with a hole", "turned box with a hole", "mesh 100", "mesh 10000"];
+pub const KINDS: [&str; 12] = [
+    "aligned box",
+    "box",
+    "cylinder",
+    "limb",
+    "hull",
+    "extrusion",
+    "revolution",
+    "sweep",
+    "box with a hole",
+    "turned box with a hole",
+    "mesh 100",
+    "mesh 10000",
+];
 
 /// The sketches, in the order of the table.
 pub const SKETCHES: [&str; 6] = ["volume", "avoid", "self-intersection", "silhouette", "shadow", "floor"];
@@ -101,6 +114,28 @@ impl Maker {
                 let look = if kind == "box with a hole" { plain } else { turned };
                 let hole = Shape::cuboid(at, vec3(0.5 * size.x, 0.5 * size.y, 2.0 * size.z), &look)?;
                 Shape::combined(Operation::Difference, &Shape::cuboid(at, size, &look)?, &hole)
+            }
+            "hull" => {
+                let points = (0..10).map(|_| dice.direction() * 0.5).collect();
+                Shape::placed(Arc::new(PointHull { points }).into(), at, Mat3::IDENTITY, &turned)
+            }
+            "extrusion" => {
+                let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [0.2, 0.5], [0.2, 0.0], [-0.5, 0.0]];
+                let polygon = corners.map(|corner| corner.map(|x| x * size.x)).into();
+                let solid = Extrusion { polygon, height: size.y, twist: 0.0, taper: 1.0 };
+                Shape::placed(Arc::new(solid).into(), at, Mat3::IDENTITY, &turned)
+            }
+            "revolution" => {
+                let profile = [[0.0, 0.0], [0.4, 0.0], [0.5, 1.0], [0.4, 1.0], [0.3, 0.2], [0.0, 0.2]];
+                let profile = profile.map(|point| point.map(|x| x * size.x)).into();
+                Shape::placed(Arc::new(Revolution { profile }).into(), at, Mat3::IDENTITY, &turned)
+            }
+            "sweep" => {
+                let corners = [[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]];
+                let path = (0..6).map(|k| f64::from(k) * 0.4);
+                let path = path.map(|t| vec3(t.cos(), 0.3 * t, t.sin()) * (0.7 * size.x)).collect();
+                let solid = Sweep { profile: corners.into(), path, scale: 0.5 };
+                Shape::placed(Arc::new(solid).into(), at, Mat3::IDENTITY, &turned)
             }
             _ => Shape::mesh(&self.meshes[usize::from(kind != "mesh 100")], at, size.x, &turned),
         }

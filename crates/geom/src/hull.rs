@@ -22,7 +22,7 @@ pub fn hull(points: &[Vec3]) -> Option<Topology> {
         let normal = (b - a).cross(c - a).unit()?;
         Some(Triangle { corners, normal, offset: normal.dot(a) })
     };
-    let mut faces = first_tetrahedron(points, close)?.into_iter().map(make).collect::<Option<Vec<_>>>()?;
+    let mut faces = first_tetrahedron(points)?.into_iter().map(make).collect::<Option<Vec<_>>>()?;
     let mut rim: Vec<(u32, u32)> = Vec::new();
     for (i, p) in points.iter().enumerate() {
         rim.clear();
@@ -50,13 +50,9 @@ fn closeness(points: &[Vec3]) -> f64 {
     1e-10 * size.x.max(size.y).max(size.z)
 }
 
-/// True for points in a plane, which have no hull.
-pub fn is_flat(points: &[Vec3]) -> bool {
-    first_tetrahedron(points, closeness(points)).is_none()
-}
-
-/// Four points far from each other, as outward triangles.
-fn first_tetrahedron(points: &[Vec3], close: f64) -> Option<[[u32; 3]; 4]> {
+/// Numbers of four points far from each other, not all in a plane; `None` for points in a plane, which have no hull.
+pub fn far_apart(points: &[Vec3]) -> Option<[usize; 4]> {
+    let close = closeness(points);
     let farthest = |measure: &dyn Fn(Vec3) -> f64| {
         let best = (0..points.len()).max_by(|i, j| measure(points[*i]).total_cmp(&measure(points[*j])))?;
         (measure(points[best]) > close).then_some(best)
@@ -67,6 +63,13 @@ fn first_tetrahedron(points: &[Vec3], close: f64) -> Option<[[u32; 3]; 4]> {
     let c = farthest(&|p| (p - points[a]).cross(along).norm())?;
     let normal = (points[b] - points[a]).cross(points[c] - points[a]).unit()?;
     let d = farthest(&|p| (p - points[a]).dot(normal).abs())?;
+    Some([a, b, c, d])
+}
+
+/// Four points far from each other, as outward triangles.
+fn first_tetrahedron(points: &[Vec3]) -> Option<[[u32; 3]; 4]> {
+    let [a, b, c, d] = far_apart(points)?;
+    let normal = (points[b] - points[a]).cross(points[c] - points[a]);
     let (b, c) = if (points[d] - points[a]).dot(normal) > 0.0 { (c, b) } else { (b, c) };
     let [a, b, c, d] = [a, b, c, d].map(|i| i as u32);
     Some([[a, b, c], [a, d, b], [b, d, c], [c, d, a]])

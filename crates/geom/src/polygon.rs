@@ -2,6 +2,7 @@
 
 use crate::error::{GeomError, bad_shape as bad};
 use crate::fine::crease::SHARP;
+use niwaki_math::Scalar;
 use niwaki_math::polygon::{inset, twice_signed};
 use std::f64::consts::FRAC_PI_2;
 
@@ -11,20 +12,20 @@ pub type Pair = [f64; 2];
 /// The most points of a list.
 pub const MOST: usize = 1024;
 
-fn minus(a: Pair, b: Pair) -> Pair {
+fn minus<S: Scalar>(a: [S; 2], b: [S; 2]) -> [S; 2] {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-fn dot(a: Pair, b: Pair) -> f64 {
+fn dot<S: Scalar>(a: [S; 2], b: [S; 2]) -> S {
     a[0] * b[0] + a[1] * b[1]
 }
 
-fn cross(a: Pair, b: Pair) -> f64 {
+fn cross<S: Scalar>(a: [S; 2], b: [S; 2]) -> S {
     a[0] * b[1] - a[1] * b[0]
 }
 
 /// Twice the area of a triangle, positive for counter-clockwise corners.
-fn turn(a: Pair, b: Pair, c: Pair) -> f64 {
+fn turn<S: Scalar>(a: [S; 2], b: [S; 2], c: [S; 2]) -> S {
     cross(minus(b, a), minus(c, b))
 }
 
@@ -68,12 +69,16 @@ pub fn check_points<const N: usize>(
 ///
 /// # Errors
 /// `bad-shape`.
-pub fn check_simple(what: &str, corners: &[Pair], side: &dyn Fn(usize) -> String) -> Result<(), GeomError> {
-    let n = corners.len();
+pub fn check_simple<S: Scalar>(
+    what: &str,
+    corners: &[[S; 2]],
+    side: &dyn Fn(usize) -> String,
+) -> Result<(), GeomError> {
+    let (n, zero) = (corners.len(), S::from_f64(0.0));
     let at = |k: usize| corners[k % n];
     for k in 0..n {
         let (a, b, c) = (at(k), at(k + 1), at(k + 2));
-        if turn(a, b, c) == 0.0 && dot(minus(b, a), minus(c, b)) < 0.0 {
+        if turn(a, b, c) == zero && dot(minus(b, a), minus(c, b)) < zero {
             return bad(format!("the {what} turns back on itself where {} ends", side(k)));
         }
     }
@@ -105,16 +110,30 @@ pub fn check_section(what: &str, corners: &[Pair], most: usize) -> Result<(), Ge
     })
 }
 
+/// Notes in a recording what decides whether a polygon is simple, if its numbers vary.
+pub fn note_simple<S: Scalar>(corners: &[[S; 2]]) {
+    if corners.iter().flatten().any(|x| x.varies()) {
+        let _ = check_simple("polygon", corners, &|_| String::new());
+    }
+}
+
 /// True when two sides share a point.
-fn meet([a, b]: [Pair; 2], [c, d]: [Pair; 2]) -> bool {
+fn meet<S: Scalar>([a, b]: [[S; 2]; 2], [c, d]: [[S; 2]; 2]) -> bool {
     let apart = |k: usize| a[k].max(b[k]) < c[k].min(d[k]) || c[k].max(d[k]) < a[k].min(b[k]);
     if apart(0) || apart(1) {
         return false;
     }
-    let [p, q] = [turn(a, b, c), turn(a, b, d)];
-    let [r, s] = [turn(c, d, a), turn(c, d, b)];
-    let one_side = |x: f64, y: f64| x > 0.0 && y > 0.0 || x < 0.0 && y < 0.0;
-    !one_side(p, q) && !one_side(r, s)
+    let zero = S::from_f64(0.0);
+    let one_side = |x: S, y: S| x > zero && y > zero || x < zero && y < zero;
+    !one_side(turn(a, b, c), turn(a, b, d)) && !one_side(turn(c, d, a), turn(c, d, b))
+}
+
+/// True for a simple polygon without a corner that points inwards, in either direction.
+pub fn is_convex(corners: &[Pair]) -> bool {
+    let n = corners.len();
+    let turns = (0..n).map(|k| turn(corners[k], corners[(k + 1) % n], corners[(k + 2) % n]));
+    let (low, high) = turns.fold((0.0_f64, 0.0_f64), |(low, high), turn| (low.min(turn), high.max(turn)));
+    low == 0.0 || high == 0.0
 }
 
 /// Triangles that fill a counter-clockwise polygon: ears are cut off, one after the other (Meisters 1975). Each side is one of exactly
@@ -291,6 +310,7 @@ mod tests {
             let forth = counter_clockwise(corners.clone());
             let back = counter_clockwise(corners.into_iter().rev().collect());
             assert_eq!(forth, back);
+            assert_eq!(is_convex(&forth), forth.len() == 8, "only the square is");
             let faces = triangles(&forth);
             assert_eq!(faces.len(), forth.len() - 2);
             let areas: Vec<f64> = faces

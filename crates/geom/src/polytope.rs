@@ -31,6 +31,19 @@ impl Hull {
         Hull::new(points, Arc::new(topology))
     }
 
+    /// A convex solid between two rings of as many points, or from a ring to a tip; counter-clockwise seen from the end.
+    pub(crate) fn between(mut ring: Vec<Vec3>, end: &[Vec3]) -> Option<Hull> {
+        let count = ring.len();
+        ring.extend(end);
+        if end.len() == count {
+            return Hull::new(ring, Topology::frustum(count));
+        }
+        let (n, tip) = (count as u32, count as u32);
+        let mut faces: Vec<Vec<u32>> = (0..n).map(|k| vec![k, (k + 1) % n, tip]).collect();
+        faces.push((0..n).rev().collect());
+        Hull::new(ring, Arc::new(Topology::from_faces(count + 1, faces)))
+    }
+
     /// A nearly convex solid, as [`Hull::new`] makes it, but without the faces that have no normal.
     pub(crate) fn nearly(vertices: Vec<Vec3>, topology: Arc<Topology>) -> Option<Hull> {
         Hull::over(vertices, topology, true)

@@ -235,6 +235,73 @@ fn a_recording_holds_wherever_its_guards_do() {
     assert!(inside > 100 * CASES.len(), "{inside}");
 }
 
+fn pairs<S: Scalar>(x: &[S]) -> Value<S> {
+    Value::list(x.chunks(2).map(|pair| Value::tuple(reals(pair))).collect())
+}
+
+fn points<S: Scalar>(x: &[S]) -> Value<S> {
+    Value::list(x.chunks(3).map(Value::vector).collect())
+}
+
+fn prism<S: Scalar>(x: &[S]) -> Vec<Value<S>> {
+    vec![pairs(&x[..10]), Value::Real(x[10]), Value::None, Value::Real(x[11])]
+}
+
+fn swept<S: Scalar>(x: &[S]) -> Vec<Value<S>> {
+    vec![pairs(&x[..6]), points(&x[6..18]), Value::Real(x[18])]
+}
+
+/// Words for solids of lists of points, and numbers that make one.
+type Solid = (&'static str, Build<f64>, Build<Var>, &'static [f64]);
+const SOLIDS: &[Solid] = &[
+    ("extrude", prism, prism, &[0.0, 0.0, 3.0, 0.1, 3.2, 3.0, 2.0, 1.0, 0.3, 2.0, 1.5, 20.0]),
+    ("revolve", |x| vec![pairs(x)], |x| vec![pairs(x)], &[0.5, 0.0, 1.0, 0.5, 0.4, 1.0, 0.8, 2.0]),
+    (
+        "sweep",
+        swept,
+        swept,
+        &[0.2, 0.0, 0.1, 0.3, -0.2, 0.1, 0.0, 0.0, 0.1, 1.0, 0.2, 0.0, 1.2, 0.9, 0.3, 1.0, 1.8, 0.9, 0.7],
+    ),
+    (
+        "hull",
+        |x| vec![points(x)],
+        |x| vec![points(x)],
+        &[0.0, 0.1, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.3, 0.3, 0.4],
+    ),
+];
+
+#[test]
+fn a_recording_of_a_solid_ends_before_its_points_make_none() {
+    let mut seed = 7;
+    for (name, plain, noted, x) in SOLIDS {
+        let density =
+            recorded(x, |vars| call(name, &noted(vars)).unwrap_or_else(|fault| panic!("{name}: {fault}")));
+        assert!(density.broken(x).is_none(), "{name}");
+        let mut none = 0;
+        for _ in 0..400 {
+            let wide = 10f64.powf(-2.0 + 2.5 * unit(&mut seed));
+            let far: Vec<f64> =
+                x.iter().map(|x| x + wide * x.abs().max(0.3) * (2.0 * unit(&mut seed) - 1.0)).collect();
+            // Points on the way there, as a trajectory meets them: a hull has none only in a plane, which it crosses.
+            let at =
+                |share: f64| -> Vec<f64> { x.iter().zip(&far).map(|(a, b)| a + (b - a) * share).collect() };
+            let end =
+                (1..=20).map(|k| f64::from(k) / 20.0).find(|share| call(name, &plain(&at(*share))).is_err());
+            if let Some(end) = end {
+                none += 1;
+                assert!(density.broken(&at(end)).is_some(), "{name} at {:?}", at(end));
+            }
+        }
+        assert!(none > 40 || *name == "hull", "{name}: {none}");
+    }
+    // On its way to the other side of the other three a point of a hull passes their plane.
+    let (_, _, noted, x) = SOLIDS[3];
+    let density = recorded(x, |vars| call("hull", &noted(vars)).expect("a hull"));
+    let mut across = x.to_vec();
+    across[11] = -0.4;
+    assert!(density.broken(&across).is_some());
+}
+
 #[test]
 fn operations_without_derivative_fail_for_numbers_that_vary() {
     let (codes, _) = with_sheet(|| {

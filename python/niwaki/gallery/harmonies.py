@@ -16,7 +16,7 @@ from niwaki import kernels, model
 from niwaki.methods import mh
 from niwaki.words import (
     beta,
-    categorical,
+    choose,
     color_difference,
     discrete_uniform,
     factor,
@@ -31,9 +31,14 @@ from niwaki.words import (
 
 TITLE = "palettes of many harmonies, by one chain"
 
-#: Schemes of the colour wheel: the places of the accents, in degrees from the main hue.
-SCHEMES = ("complementary", "split complementary", "triad", "analogous")
-ANGLES = ((180.0,), (150.0, 210.0), (120.0, 240.0), (-32.0, 32.0))
+#: Schemes of the colour wheel, all equally likely: the places of the accents, in degrees from the main hue.
+SCHEMES = {"complementary": 0.25, "split complementary": 0.25, "triad": 0.25, "analogous": 0.25}
+ANGLES = {
+    "complementary": (180.0,),
+    "split complementary": (150.0, 210.0),
+    "triad": (120.0, 240.0),
+    "analogous": (-32.0, 32.0),
+}
 
 #: Number of colours of a palette, difference of neighbours (CIEDE2000), and its tolerance.
 COLORS, APART, WITHIN = 5, 25.0, 0.25
@@ -49,7 +54,7 @@ METHOD = mh(steps=40_000, warmup=8_000, thin=32, kernel=KERNEL)
 @model
 def harmonies():
     """Draw a scheme, a main colour, its accents and shades; return (scheme, colours as sRGB)."""
-    scheme = categorical([0.25, 0.25, 0.25, 0.25])
+    scheme = choose(SCHEMES)
     colors = [colored(von_mises(0.0, 0.0) / (2.0 * pi))]
     for angle in ANGLES[scheme]:
         # The distance of the accent from its place; the accent moves with its place when the scheme changes.

@@ -277,14 +277,17 @@ def choose(body: Body, node: ast.Call) -> Expr:
     """Lower `choose(values, weights)` to the draw of an index; the site has the options if they may be words."""
     options = node.args[0] if node.args else _keyword(node, "values")
     table = _table(body, options) if options is not None else None
+    weights: Expr | None
     if table is not None and len(node.args) + len(node.keywords) == 1:
         values, weights = table
     elif table is not None and (len(node.args) == 2 or _keyword(node, "weights") is not None):
         body.refuse("argument-twice", node, name="choose", keyword="weights")
     else:
         parameters = vocabulary.parameters_of(words.choose)
-        values, weights = bind(body, node, node.args, node.keywords, parameters, "choose")
-    assert values is not None and options is not None
+        bound, weights = bind(body, node, node.args, node.keywords, parameters, "choose")
+        assert bound is not None
+        values = bound
+    assert options is not None
     if not isinstance(options, ast.List | ast.Tuple | ast.Dict) and static(body, options) is MISSING:
         values = Form("options", [values], body.span(node))
     values = body.kept(values)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -32,6 +32,13 @@ class GradientWarning(UserWarning):
 def say(text: str) -> None:
     """Warn at the line of the user's code that started the search."""
     warn(text, GradientWarning)
+
+
+def _with_word(path: str, fixed: Sequence[Mapping[str, Any]]) -> str:
+    """Return the address of a fixed choice, with its word if it has the same word in all chains."""
+    values = {choices.get(path) for choices in fixed}
+    word = values.pop() if len(values) == 1 else None
+    return f"{path} = {word!r}" if isinstance(word, str) else path
 
 
 def listed(paths: Sequence[str]) -> str:
@@ -157,7 +164,7 @@ class HmcInfo(DrawnInfo):
         name, broke = self.search.model.name, self.divergences
         held = sorted({path for fixed in self.fixed for path in fixed})
         if held:
-            say(fixed_choices(held, name))
+            say(fixed_choices([_with_word(path, self.fixed) for path in held], name))
         trajectories = sum(self.sizes) * method.thin
         figures = isinstance(method, Nuts) or not method.designs
         if broke.structure and figures:

@@ -367,7 +367,10 @@ class Result(Sequence[Sample]):
             known = [*dict.fromkeys(address for sample, _ in possible for address in sample.choices)]
             nearest = ", ".join(f"`{address}`" for address in _engine.nearest(choice, known))
             raise InputError(
-                "no-address", pattern=choice, name=self.model.name, nearest=nearest or "none: it has no choice"
+                "no-address",
+                pattern=choice,
+                name=self.model.name,
+                nearest=nearest or "none: it has no choice",
             )
         return [(sample.choices.get(choice), weight) for sample, weight in possible]
 

@@ -242,7 +242,9 @@ class Sample:
     @property
     def options(self) -> dict[str, tuple[str, ...]]:
         """The options of every choice among words, in their order."""
-        return {choice.path: tuple(choice.words) for choice in self._trace.choices if choice.words is not None}
+        return {
+            choice.path: tuple(choice.words) for choice in self._trace.choices if choice.words is not None
+        }
 
     @property
     def places(self) -> dict[str, Any]:

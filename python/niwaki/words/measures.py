@@ -16,6 +16,10 @@ __all__ = ["Bark", "Frame"]
 Rotation = Sequence[Sequence[float]]
 Color = Sequence[float]
 Axis = str | VecLike
+#: Points of three numbers.
+Points = Sequence[VecLike]
+#: Points of two numbers.
+Pairs = Sequence[VecLike]
 
 
 class Frame(NamedTuple):

@@ -24,6 +24,8 @@ FITS: dict[str, Any] = {
     "Rotation": None,
     "Axis": (0, 1, 0),
     "str": "z",
+    "Pairs": [(1, 0), (2, 1), (1, 2)],
+    "Points": [(0, 0, 0), (9, 1, 0), (20, 0, 1), (20, 30, 1)],
     "Color": (1, 0, 0),
     "Bark": ((0, 0, 0), 1, (0, 1, 0), 1),
 }
@@ -44,6 +46,8 @@ EXCEPTIONS = {
     ("cylinder", "axis"),
     ("cone", "axis"),
     ("torus", "axis"),
+    ("extrude", "axis"),
+    ("revolve", "axis"),
     ("mesh", "vertices"),
     ("mesh", "faces"),
 }

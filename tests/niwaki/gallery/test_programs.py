@@ -35,6 +35,8 @@ def is_close(a: Any, b: Any) -> bool:
         return type(a) is type(b) and len(a) == len(b) and all(map(is_close, a, b))
     if isinstance(a, nw.words.Vec):
         return isinstance(b, nw.words.Vec) and is_close(a.parts, b.parts)
+    if isinstance(a, str):
+        return a == b
     return math.isclose(a, b, rel_tol=1e-12, abs_tol=1e-12)
 
 

@@ -10,7 +10,22 @@ from typing import Any
 import niwaki as nw
 import numpy as np
 import pytest
-from niwaki import box, cylinder, emit, flip, gaussian, limb, poisson, rotation, uniform
+from niwaki import (
+    box,
+    cylinder,
+    emit,
+    extrude,
+    flip,
+    gaussian,
+    hull,
+    limb,
+    poisson,
+    revolve,
+    rotation,
+    sweep,
+    uniform,
+    vec,
+)
 from niwaki.errors import InputError
 from niwaki.gallery import entries
 from niwaki.search.drag.source import NEAR
@@ -24,13 +39,27 @@ def place(positions: Any, part: int, shape: int, shares: tuple[float, float, flo
     return None if frame is None else frame[0] + np.array(shares) @ frame[1:]
 
 
-@pytest.mark.parametrize("name", SPACE)
+@nw.model
+def drawn():
+    """Solids of points that are choices."""
+    wide, deep, high = uniform(1.0, 2.0), gaussian(2.0, 0.1), uniform(1.0, 3.0)
+    turn = rotation((0, 0, 1), high)
+    polygon = [(0.0, 0.0), (wide, 0.0), (wide, deep), (0.5, 0.5 * deep), (0.0, 3.0)]
+    emit(extrude(polygon, high, (wide, 0.0, 0.0), twist=0.3, rotation=turn), extrude(polygon, deep, axis="z"))
+    emit(revolve([(wide, 0.0), (0.5 * wide, deep), (0.2, high + 5.0)], axis=(wide, 1.0, deep)))
+    path = [(0.0, 0.0, 0.0), (0.0, high, 0.0), (wide + 3.0, 2.0 * high, deep)]
+    emit(sweep([(0.1, 0.0), (0.0, 0.1), (-0.1, -0.1)], path))
+    corners = [(0.0, 0.0, 0.0), (wide, 0.0, 0.0), (0.0, deep, 0.0), (0.0, 0.0, high), (1.0, 1.0, 1.0)]
+    emit(hull([turn * vec(x, y, z) for x, y, z in corners]))
+
+
+@pytest.mark.parametrize("name", [*SPACE, "drawn"])
 def test_derivatives_of_positions_are_central_differences(name: str) -> None:
     """On every model of the gallery that emits: a point of some parts, by some of the choices that move them."""
-    entry = next(candidate for candidate in entries() if candidate.name == name)
+    models = {entry.name: entry.model for entry in entries()} | {"drawn": drawn}
     sample = next(
         candidate
-        for candidate in (nw.run(entry.model, seed=s).best for s in range(20))
+        for candidate in (nw.run(models[name], seed=s).best for s in range(20))
         if candidate.primitives
     )
     task = sample.search.task
@@ -54,6 +83,37 @@ def test_derivatives_of_positions_are_central_differences(name: str) -> None:
             np.testing.assert_allclose(slopes[:, k], difference, rtol=1e-5, atol=1e-7 * size / ranges[k, 3])
             looked += 1
     assert looked or all(positions.slopes(n, 0, shares) is None for n in range(len(positions.parts)))
+
+
+@nw.model
+def heap():
+    """A prism with a corner that only one choice moves, and a hull that moves and turns as a whole."""
+    wide, deep = uniform(1.0, 2.0), uniform(1.0, 3.0)
+    emit(extrude([(0.0, 0.0), (wide, 0.0), (wide, deep), (0.5, 0.5), (0.0, 5.0)], 2.0), name="prism")
+    angle, shift = uniform(0.0, 1.0), uniform(0.0, 1.0)
+    turn, by = rotation((0, 0, 1), angle), vec(shift, 0.0, 0.0)
+    points = [(1, 2, 3), (4, 0, 0), (0, 5, 0), (0, 0, 6), (1, 1, 1)]
+    emit(hull([turn * vec(x, y, z) + by for x, y, z in points]), name="hull")
+
+
+def test_points_of_a_solid_move_with_its_list() -> None:
+    sample = nw.run(heap, seed=1).best
+    angle, shift, wide = (sample.choices[name] for name in ("angle", "shift", "wide"))
+    positions = sample.search.task.placer(sample._run).positions(
+        {}, {choice.address for choice in sample._trace.choices}
+    )
+    names = [path for _, path, *_ in positions.movables]
+    prism, pile = (next(n for n, part in enumerate(positions.parts) if part[0] == name) for name in ("prism", "hull"))
+    assert place(positions, prism, 0, (0.5, 0.5, 0.5)) == pytest.approx((wide, 2.0, 5.0))
+    slopes = positions.slopes(prism, 0, (0.5, 0.5, 0.5))
+    assert slopes[:, names.index("wide")] == pytest.approx((1, 0, 0)) and not slopes[:, names.index("deep")].any()
+    frame = np.array(positions.frame(pile, 0))
+    for corner in ((1, 2, 3), (4, 0, 0), (0, 0, 6)):
+        x, y, z = rotation((0, 0, 1), angle) * nw.vec(*corner)
+        shares = tuple(np.linalg.solve(frame[1:].T, np.array((x + shift, y, z)) - frame[0]).tolist())
+        slopes = positions.slopes(pile, 0, shares)
+        assert slopes[:, names.index("shift")] == pytest.approx((1, 0, 0), abs=1e-9)
+        assert slopes[:, names.index("angle")] == pytest.approx((-y, x, 0), abs=1e-9)
 
 
 @nw.model

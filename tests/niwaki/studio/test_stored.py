@@ -18,6 +18,7 @@ import pytest
 
 pytest.importorskip("starlette")
 
+import niwaki as nw
 import numpy as np
 import trimesh
 from faults import trials
@@ -25,6 +26,7 @@ from mutated import mutated
 from niwaki import Target
 from niwaki.errors import FileError, NiwakiError
 from niwaki.shell import run_files
+from niwaki.shell.references import find
 from niwaki.studio import messages as m
 from niwaki.studio.problems import CommandError
 from niwaki.studio.session import Session, exporting
@@ -304,3 +306,19 @@ def test_a_file_that_is_fetched_is_whole_on_a_disk_that_fails(tmp_path):
         for place in (trial.folder / "session" / "files").rglob("best.glb"):
             assert place.read_bytes() == b"glb" * 10_000, trial
     assert threading.active_count() < 50
+
+
+def test_a_choice_among_words_has_its_options_and_takes_a_word(tmp_path):
+    question, vines = m.Question("vines", {}, m.Ask(), m.Settings(count=1)), find("vines")
+    file, sent = tmp_path / "0.json", []
+    runs.store(nw.run(vines.model, nw.forward(1), seed=1), vines, 0, str(file), "run")
+    place = {"source": str(file), "number": 0}
+    loop.do(m.DescribeRun(**place, question=question, key=KEY), sent.append, loop.StopFlag())
+    leaf = next(choice for choice in sent[0].choices if choice.address.endswith("leaf"))
+    assert leaf.options == ["none", "left", "right"] and leaf.value in leaf.options and leaf.low is None
+    assert all(choice.options == [] for choice in sent[0].choices if not choice.address.endswith("leaf"))
+    other = next(word for word in leaf.options if word != leaf.value)
+    changed = tmp_path / "1.json"
+    job = m.Change(**place, question=question, changes={leaf.address: other}, run=1, file=str(changed))
+    loop.do(job, ignore, loop.StopFlag())
+    assert runs.sample(str(changed), 0).choices[leaf.address] == other

@@ -1,4 +1,4 @@
-"""Words of `choose`: exact laws, the same in every search and in plain Python; files, the shell and the studio have the words."""
+"""Claim: words of `choose` change no law, are the same in every search and in plain Python, and stand in files."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from niwaki.batches import export
 from niwaki.draw.scene import Scene
 from niwaki.errors import ModelError, NiwakiError
 from niwaki.lang.compiled import task
+from niwaki.result.hmc import GradientWarning
 from niwaki.search.drag.structure import _alternatives
 from niwaki.search.engine_runs import engine_form
 from niwaki.shell import run_files
@@ -55,6 +56,14 @@ def moved():
     second = picked(names, [1, 3, 2] if more else [2, 1])
     nw.factor(0.7 if first == second else 0.0)
     return more, first, second
+
+
+@nw.model
+def line():
+    """A word beside a real choice."""
+    kind = choose(["a", "b"])
+    x = nw.gaussian(0.0, 1.0)
+    nw.factor(-x if kind == "a" else x)
 
 
 def law(model: Any, **settings: Any) -> dict[Any, float]:
@@ -107,6 +116,9 @@ def test_a_held_word_is_found_wherever_its_list_has_it() -> None:
     assert held == pytest.approx({row: p / sum(exact.values()) for row, p in exact.items()})
     # Only one of the lists has it: runs with the other are invalid, not the search.
     assert set(law(moved, hold={"first": "n0"})) == {row for row in free if row[1] == "n0"}
+    for method in (nw.smc(1000), nw.mh(steps=6000, thin=2)):
+        shares = nw.run(moved, method, seed=4, hold={"first": "n1"}).distribution()
+        assert shares == pytest.approx(held, abs=5 * 0.5 / math.sqrt(500))
 
 
 @pytest.mark.parametrize("hold", [{}, {"first": "n1"}, {"first": "n1", "picked/word": "n2"}, {"first": "n0"}])
@@ -151,8 +163,8 @@ RULES = {
 
 @pytest.mark.parametrize("text", RULES)
 def test_distinct_strings_are_words_and_nothing_else(text: str, tmp_path: Path) -> None:
-    source = f"from niwaki import choose, model\nGIVEN = ('a', 'b')\nPLACES = (1, 2)\n@model\ndef m():\n    x, n = 'a', 1\n    return {text}\n"
-    (tmp_path / "rule.py").write_text(source)
+    constants = "from niwaki import choose, model\nGIVEN = ('a', 'b')\nPLACES = (1, 2)\n"
+    (tmp_path / "rule.py").write_text(f"{constants}@model\ndef m():\n    x, n = 'a', 1\n    return {text}\n")
     model = find(f"{tmp_path}/rule.py:m").model
     if RULES[text] is None:
         with pytest.raises(NiwakiError):
@@ -205,6 +217,8 @@ def test_summaries_have_places_and_drags_try_words() -> None:
     assert result.best.options == {"roof": tuple(ROOFS), "wall": ("brick", "wood"), "door": ("left", "right")}
     roof = result.best._trace.choices[0]
     assert sorted([roof.value, *_alternatives(roof)]) == sorted(ROOFS)
+    with pytest.warns(GradientWarning, match="does not move it: `kind = 'b'`"):
+        nw.run(line, nw.hmc(steps=2, draws=2), seed=1, choices={"kind": "b", "x": 0.5})
     explained = nw.search.explain(house, "roof", seed=1)
     assert {explained["old"], explained["new"]} < set(ROOFS)
 
@@ -214,7 +228,7 @@ from niwaki import box, choose, emit, gaussian, model
 
 @model
 def house():
-    roof = choose(["gable", "hip", "flat"])
+    roof = choose(["gable", "hip", "inf"])
     height = choose([1.0, 2.0], [3, 1])
     emit(box((0.0, height / 2, 0.0), (1.0, height, 1.0)))
     x = gaussian()
@@ -231,8 +245,9 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_files_have_words_and_files_with_places_still_open(place: Path) -> None:
-    result = nw.run(find("roofs.py:house").model, nw.forward(3), seed=1)
+    result = nw.run(find("roofs.py:house").model, nw.forward(9), seed=1)
     data = json.loads(json.dumps(run_files.written(result, find("roofs.py:house"))))
+    assert {sample.choices["roof"] for sample in result} == {"gable", "hip", "inf"}
     for number, sample in enumerate(result):
         stored = {row["address"]: row["value"] for row in data["runs"][number]["choices"]}
         assert stored["roof"] == sample.choices["roof"] and isinstance(stored["roof"], str)
@@ -261,7 +276,9 @@ def test_the_shell_holds_words(place: Path) -> None:
         return CliRunner().invoke(app, ["grow", "roofs.py:house", *size, *words])
 
     def roof_in(folder: str) -> str:
-        return run_files.choices(json.loads((place / folder / "run.json").read_text())["runs"][0], 0, "")["roof"]
+        return run_files.choices(json.loads((place / folder / "run.json").read_text())["runs"][0], 0, "")[
+            "roof"
+        ]
 
     assert grown("--hold", "roof=hip", "-o", "held").exit_code == 0 and roof_in("held") == "hip"
     assert grown("--from", "held/run.json", "--hold", "roof", "-o", "again").exit_code == 0

@@ -3,11 +3,13 @@
 use super::measured::{Checks, Form, Measured, frame_within};
 use super::word::kinds::{Length, Letter, Number, Pairs, Point, Turn};
 use super::word::{Word, boxed, images, placed};
+use crate::convex::Coarse;
 use crate::error::{GeomError, bad_shape as bad};
 use crate::fine::{FineMesh, extrude};
 use crate::mesh::TriMesh;
 use crate::placement::Placement;
-use crate::polygon::{MOST, Pair, check_section, counter_clockwise, triangles};
+use crate::polygon::{MOST, Pair, check_section, counter_clockwise, is_convex, note_simple, triangles};
+use crate::polytope::Hull as Polytope;
 use crate::vector::{Mat3, Vec3, vec3};
 use niwaki_math::Scalar;
 use serde::{Deserialize, Serialize};
@@ -106,6 +108,25 @@ impl Measured for Arc<Extrusion> {
         }
     }
 
+    fn form(&self) -> Form {
+        if self.twist == 0.0 && is_convex(&self.polygon) { Form::Convex } else { Form::Mesh }
+    }
+
+    fn hull(&self, placement: &Placement) -> Option<Coarse> {
+        let section = extrude::Section::of(self.height, 0.0, self.taper);
+        let ring = |share: f64, corners: &[Pair]| -> Vec<Vec3> {
+            let turned = section.at(share);
+            let at = |p: &Pair| {
+                let [z, x] = turned.apply(*p);
+                placement.apply(vec3(x, share * self.height, z))
+            };
+            corners.iter().map(at).collect()
+        };
+        let corners = self.corners();
+        let upper = if self.taper == 0.0 { &[[0.0; 2]] } else { &corners[..] };
+        Polytope::between(ring(0.0, &corners), &ring(1.0, upper)).map(Coarse::new)
+    }
+
     fn bytes(&self) -> usize {
         size_of::<Extrusion>() + size_of_val(&*self.polygon)
     }
@@ -165,6 +186,8 @@ impl<S: Scalar> Word<S> for ExtrudeWord<S> {
     type Solid = Arc<Extrusion>;
 
     fn solid(&self) -> Result<(Arc<Extrusion>, Placement), GeomError> {
+        note_simple(&self.polygon);
+        let _ = self.twist.abs() <= S::from_f64(TWIST);
         let (polygon, laid) = self.lying()?;
         let extrusion = Extrusion {
             polygon: polygon.into_iter().map(|pair| pair.map(Scalar::value)).collect(),
@@ -223,6 +246,24 @@ mod tests {
         }
         let shape = extruded(&HOOK, 0.0, 1.0, 0.0).unwrap();
         assert_eq!((shape.aabb().low, shape.aabb().high), (vec3(1.0, 2.0, 3.0), vec3(4.0, 4.0, 6.0)));
+    }
+
+    #[test]
+    fn a_prism_over_a_convex_polygon_is_convex() {
+        let gable = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 2.0], [0.0, 1.0]];
+        for (twist, taper, is_convex, share) in [
+            (0.0, 1.0, true, 1.0),
+            (0.0, 0.0, true, 1.0 / 3.0),
+            (0.0, 1.5, true, 19.0 / 12.0),
+            (0.2, 1.0, false, 1.0),
+        ] {
+            let shape = extruded(&gable, twist, taper, 0.0).unwrap();
+            assert_eq!(shape.is_convex(), is_convex);
+            sound(&shape, 6.0 * share, 5e-3);
+        }
+        assert!(!extruded(&HOOK, 0.0, 1.0, 0.0).unwrap().is_convex());
+        let shape = extruded(&gable, 0.0, 1.0, 0.0).unwrap();
+        assert_eq!((shape.aabb().low, shape.aabb().high), (vec3(1.0, 2.0, 3.0), vec3(3.0, 4.0, 5.0)));
     }
 
     #[test]

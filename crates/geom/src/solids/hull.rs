@@ -7,7 +7,7 @@ use crate::bounds::Aabb;
 use crate::convex::Coarse;
 use crate::error::{GeomError, bad_shape as bad};
 use crate::fine::{FineMesh, crease};
-use crate::hull::{hull, is_flat};
+use crate::hull::{far_apart, hull};
 use crate::mesh::TriMesh;
 use crate::placement::Placement;
 use crate::polytope::Hull as Polytope;
@@ -37,9 +37,9 @@ impl Measured for Arc<Hull> {
         for (k, p) in self.points.iter().enumerate() {
             checks.finite(&format!("point {k} of a hull"), *p)?;
         }
-        match is_flat(&self.points) {
-            true => bad("the points of a hull lie in a plane, expected a point outside of it".to_string()),
-            false => Ok(()),
+        match far_apart(&self.points) {
+            None => bad("the points of a hull lie in a plane, expected a point outside of it".to_string()),
+            Some(_) => Ok(()),
         }
     }
 
@@ -76,11 +76,22 @@ word! {
     }
 }
 
+/// Notes in a recording that four of the points, which are far from each other, stay off a plane: so there is a hull.
+fn note_inside<S: Scalar>(points: &[Vec3], varying: &[[S; 3]]) {
+    let Some([origin, a, b, c]) = far_apart(points) else { return };
+    let [a, b, c] = [a, b, c].map(|k| [0, 1, 2].map(|i| varying[k][i] - varying[origin][i]));
+    let cross = [0, 1, 2].map(|i| a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3]);
+    let _ = cross[0] * c[0] + cross[1] * c[1] + cross[2] * c[2] > S::from_f64(0.0);
+}
+
 impl<S: Scalar> Word<S> for HullWord<S> {
     type Solid = Arc<Hull>;
 
     fn solid(&self) -> Result<(Arc<Hull>, Placement), GeomError> {
-        let points = self.points.iter().map(|p| plain(*p)).collect();
+        let points: Box<[Vec3]> = self.points.iter().map(|p| plain(*p)).collect();
+        if self.points.iter().flatten().any(|x| x.varies()) {
+            note_inside(&points, &self.points);
+        }
         Ok((Arc::new(Hull { points }), Placement::IDENTITY))
     }
 

@@ -55,6 +55,12 @@ pub trait Measured {
     /// The tone without a colour.
     const TONE: Tone = Tone::Plain;
 
+    /// The form of these measures: a kind of [`Form::Mesh`] may have convex solids, which are faster as such.
+    #[inline]
+    fn form(&self) -> Form {
+        Self::FORM
+    }
+
     /// Refuses measures that no solid has: sizes that are not positive and finite, vectors that are no directions. A solid that
     /// passes has a fine mesh; its hull or mesh decides whether it also has an inside at its place.
     ///

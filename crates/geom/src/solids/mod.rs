@@ -91,7 +91,7 @@ macro_rules! solids {
             /// The form of the surface.
             #[inline]
             pub fn form(&self) -> Form {
-                match self { $(Solid::$variant(_) => <$measures as Measured>::FORM,)* }
+                match self { $(Solid::$variant(solid) => Measured::form(solid),)* }
             }
 
             /// The tone without a colour.

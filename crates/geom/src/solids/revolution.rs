@@ -4,12 +4,15 @@ use super::cylinder::BEVEL;
 use super::measured::{Checks, Form, Measured, Tone, frame_within};
 use super::word::kinds::{Axis, Pairs, Point, Turn};
 use super::word::{Word, boxed, direction, images, laid_along, placed, plain};
+use crate::convex::Coarse;
 use crate::error::{GeomError, bad_shape as bad};
 use crate::fine::{ARC, FineMesh, ROUND};
 use crate::mesh::TriMesh;
 use crate::placement::Placement;
-use crate::polygon::{MOST, Pair, check_points, check_simple, room, rounded};
+use crate::polygon::{MOST, Pair, check_points, check_simple, is_convex, note_simple, room, rounded};
+use crate::polytope::Hull as Polytope;
 use crate::ring::ring;
+use crate::topology::Topology;
 use crate::vector::{Mat3, Vec3, vec3};
 use niwaki_math::Scalar;
 use niwaki_math::polygon::twice_signed;
@@ -37,29 +40,11 @@ struct Line {
 
 impl Revolution {
     fn is_ring(&self) -> bool {
-        let ends = (self.profile.first(), self.profile.last());
-        self.profile.len() > 3 && ends.0 == ends.1
-    }
-
-    /// The corners of the half section in the order of the profile, with those on the axis.
-    fn corners(&self) -> Vec<Pair> {
-        let count = self.profile.len();
-        if self.is_ring() {
-            return self.profile[..count - 1].to_vec();
-        }
-        let mut corners = self.profile.to_vec();
-        let [low, high] = [self.profile[0], self.profile[count - 1]];
-        if high[0] > 0.0 {
-            corners.push([0.0, high[1]]);
-        }
-        if low[0] > 0.0 {
-            corners.push([0.0, low[1]]);
-        }
-        corners
+        is_ring(&self.profile)
     }
 
     fn line(&self) -> Line {
-        let (mut points, is_ring) = (self.corners(), self.is_ring());
+        let (mut points, is_ring) = (corners(&self.profile), self.is_ring());
         if twice_signed(&points) < 0.0 {
             points.reverse();
         }
@@ -72,6 +57,48 @@ impl Revolution {
         points.rotate_left(first.unwrap_or(0));
         Line { points, is_ring }
     }
+}
+
+impl Revolution {
+    /// Vertices of the coarse mesh and its faces, of three or four corners.
+    fn faces(&self, placement: &Placement) -> (Vec<Vec3>, Vec<Vec<u32>>) {
+        let line = self.line();
+        // A row on the axis is a single point.
+        let mut numbers = Vec::with_capacity(line.points.len() * SIDES);
+        let mut vertices = Vec::new();
+        for &[radius, height] in &line.points {
+            for (sin, cos) in ring(SIDES) {
+                if radius > 0.0 || numbers.len() % SIDES == 0 {
+                    vertices.push(placement.apply(vec3(radius * sin, height, radius * cos)));
+                }
+                numbers.push((vertices.len() - 1) as u32);
+            }
+        }
+        let corners = |quad: [u32; 4]| {
+            let mut corners = quad.map(|k| numbers[k as usize]).to_vec();
+            corners.dedup();
+            if corners.first() == corners.last() {
+                corners.pop();
+            }
+            corners
+        };
+        let faces = Line::quads(line.points.len(), line.is_ring, SIDES).map(corners).collect();
+        (vertices, faces)
+    }
+}
+
+fn is_ring<S: Scalar>(profile: &[[S; 2]]) -> bool {
+    profile.len() > 3 && profile.first() == profile.last()
+}
+
+/// The corners of the half section in the order of the profile, with those on the axis.
+fn corners<S: Scalar>(profile: &[[S; 2]]) -> Vec<[S; 2]> {
+    let ([low, .., high], false) = (profile, is_ring(profile)) else {
+        return profile[..profile.len().saturating_sub(1)].to_vec();
+    };
+    let zero = S::from_f64(0.0);
+    let joined = [high, low].into_iter().filter(|end| end[0] > zero).map(|end| [zero, end[1]]);
+    profile.iter().copied().chain(joined).collect()
 }
 
 impl Line {
@@ -113,7 +140,7 @@ impl Measured for Arc<Revolution> {
                 "the {what} begins and ends at the same height; a line that makes a ring ends with its first point"
             ));
         }
-        let corners = self.corners();
+        let corners = corners(&self.profile);
         if twice_signed(&corners) == 0.0 {
             return bad(format!("the {what} lies on the axis, and encloses nothing with it"));
         }
@@ -127,25 +154,19 @@ impl Measured for Arc<Revolution> {
         size_of::<Revolution>() + size_of_val(&*self.profile)
     }
 
+    fn form(&self) -> Form {
+        if !self.is_ring() && is_convex(&corners(&self.profile)) { Form::Convex } else { Form::Mesh }
+    }
+
+    fn hull(&self, placement: &Placement) -> Option<Coarse> {
+        let (vertices, faces) = self.faces(placement);
+        let topology = Topology::from_faces(vertices.len(), faces);
+        Polytope::new(vertices, Arc::new(topology)).map(Coarse::new)
+    }
+
     fn mesh(&self, placement: &Placement) -> Result<TriMesh, GeomError> {
-        let line = self.line();
-        // A row on the axis is a single point.
-        let mut numbers = Vec::with_capacity(line.points.len() * SIDES);
-        let mut vertices = Vec::new();
-        for &[radius, height] in &line.points {
-            for (sin, cos) in ring(SIDES) {
-                if radius > 0.0 || numbers.len() % SIDES == 0 {
-                    vertices.push(placement.apply(vec3(radius * sin, height, radius * cos)));
-                }
-                numbers.push((vertices.len() - 1) as u32);
-            }
-        }
-        let mut faces = Vec::new();
-        for quad in Line::quads(line.points.len(), line.is_ring, SIDES) {
-            let [a, b, c, d] = quad.map(|k| numbers[k as usize]);
-            faces.extend([[a, b, c], [a, c, d]].into_iter().filter(|[a, b, c]| a != b && b != c && c != a));
-        }
-        TriMesh::new(vertices, faces)
+        let (vertices, faces) = self.faces(placement);
+        TriMesh::new(vertices.clone(), Topology::from_faces(vertices.len(), faces).triangles)
     }
 
     fn frame(&self, placement: &Placement) -> Placement {
@@ -202,6 +223,10 @@ impl<S: Scalar> Word<S> for RevolveWord<S> {
     type Solid = Arc<Revolution>;
 
     fn solid(&self) -> Result<(Arc<Revolution>, Placement), GeomError> {
+        for pair in &self.profile {
+            let _ = pair[0] > S::from_f64(0.0);
+        }
+        note_simple(&corners(&self.profile));
         let profile = self.profile.iter().map(|pair| pair.map(Scalar::value)).collect();
         Ok((Arc::new(Revolution { profile }), placed(self.center, self.laid()?, self.rotation)))
     }
@@ -256,6 +281,11 @@ mod tests {
                 assert_eq!(*shape.world_mesh(), *other.world_mesh());
                 assert_eq!(shape.fine_mesh(), other.fine_mesh());
             }
+        }
+        for (profile, is_convex) in
+            [(&VASE[..], false), (&RING, false), (open, true), (cone, true), (rod, true)]
+        {
+            assert_eq!(turned(profile, 0.0).unwrap().is_convex(), is_convex);
         }
         let shape = turned(&VASE, 0.0).unwrap();
         assert_eq!((shape.aabb().low, shape.aabb().high), (vec3(-0.5, 2.0, 1.5), vec3(2.5, 4.0, 4.5)));

@@ -3,11 +3,15 @@
 use super::measured::{Checks, Form, Measured};
 use super::word::kinds::{Length, Pairs, Points};
 use super::word::{Word, plain, spread};
+use crate::convex::Coarse;
 use crate::error::{GeomError, bad_shape as bad};
 use crate::fine::{FineMesh, crease};
 use crate::mesh::TriMesh;
 use crate::placement::Placement;
-use crate::polygon::{Pair, check_points, check_section, counter_clockwise, triangles};
+use crate::polygon::{
+    Pair, check_points, check_section, counter_clockwise, is_convex, note_simple, triangles,
+};
+use crate::polytope::Hull as Polytope;
 use crate::vector::{Mat3, Vec3};
 use niwaki_math::Scalar;
 use serde::{Deserialize, Serialize};
@@ -31,61 +35,119 @@ pub struct Sweep {
     pub scale: f64,
 }
 
+type Three<S> = [S; 3];
+
+fn dot<S: Scalar>(a: Three<S>, b: Three<S>) -> S {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross<S: Scalar>(a: Three<S>, b: Three<S>) -> Three<S> {
+    [0, 1, 2].map(|i| a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3])
+}
+
+/// `a + b * by`.
+fn plus<S: Scalar>(a: Three<S>, b: Three<S>, by: S) -> Three<S> {
+    [0, 1, 2].map(|i| a[i] + b[i] * by)
+}
+
+fn unit<S: Scalar>(a: Three<S>) -> Three<S> {
+    let length = dot(a, a).sqrt();
+    a.map(|x| x / length)
+}
+
+/// The directions of the lines of a path.
+fn directions<S: Scalar>(path: &[Three<S>]) -> Vec<Three<S>> {
+    path.windows(2).map(|ends| unit(plus(ends[1], ends[0], S::from_f64(-1.0)))).collect()
+}
+
 /// The directions of a section: sideways, up, and along the path. Sideways is up times along.
 #[derive(Clone, Copy)]
-struct Section([Vec3; 3]);
+struct Section<S>([Three<S>; 3]);
 
-impl Section {
+impl<S: Scalar> Section<S> {
+    fn upright(up: Three<S>, along: Three<S>) -> Section<S> {
+        let up = unit(plus(up, along, -dot(up, along)));
+        Section([cross(up, along), up, along])
+    }
+
     /// At the start of a path: up is as near to the y axis as can be, on a steep path to the z axis.
-    fn first(along: Vec3) -> Section {
-        let up = Vec3::AXES[if along.y.abs() > STEEP { 2 } else { 1 }];
-        let up = (up - along * up.dot(along)).unit().unwrap_or(up);
-        Section([up.cross(along), up, along])
+    fn first(along: Three<S>) -> Section<S> {
+        let is_steep = along[1].abs() > S::from_f64(STEEP);
+        Section::upright(Vec3::AXES[if is_steep { 2 } else { 1 }].to_array().map(S::from_f64), along)
     }
 
     /// After a bend: turned by the smallest turn, so that it does not spin about the path (Bishop 1975).
-    fn bent(self, along: Vec3) -> Section {
-        let turn = Mat3::between(self.0[2], along);
-        let up = turn.apply(self.0[1]);
-        let up = (up - along * up.dot(along)).unit().unwrap_or(up);
-        Section([up.cross(along), up, along])
+    fn bent(self, along: Three<S>) -> Section<S> {
+        let [_, up, before] = self.0;
+        // The turn is two reflections; up is at right angles to the path before.
+        let between = plus(before, along, S::from_f64(1.0));
+        let part = -dot(up, between) / (S::from_f64(1.0) + dot(before, along));
+        Section::upright(plus(up, between, part), along)
     }
 }
 
+/// The corners of a profile at each point of a path, scaled by `scale` at its end.
+fn rings<S: Scalar>(profile: &[[S; 2]], path: &[Three<S>], scale: S) -> Vec<Vec<Three<S>>> {
+    let mut sections: Vec<Section<S>> = Vec::with_capacity(path.len());
+    for along in directions(path) {
+        let next = sections.last().map_or_else(|| Section::first(along), |last| last.bent(along));
+        sections.push(next);
+    }
+    let (zero, unity) = (S::from_f64(0.0), S::from_f64(1.0));
+    let mut gone = vec![zero];
+    for (k, section) in sections.iter().enumerate() {
+        gone.push(gone[k] + dot(plus(path[k + 1], path[k], -unity), section.0[2]));
+    }
+    let last = path.len() - 1;
+    let ring = |k: usize| -> Vec<Three<S>> {
+        let (before, after) = (sections[k.saturating_sub(1)], sections[k.min(last - 1)]);
+        // The ends are exact, because parts are attached there.
+        let scale = match k {
+            _ if k == last => scale,
+            0 => unity,
+            _ => unity + (scale - unity) * gone[k] / gone[last],
+        };
+        let [sideways, up, along] = before.0;
+        // The plane of the mitre is as steep to one side of the bend as to the other.
+        let across = plus(along, after.0[2], unity);
+        let depth = dot(across, along);
+        let corner = |[x, y]: &[S; 2]| {
+            let flat = plus(sideways.map(|part| part * *x), up, *y).map(|part| part * scale);
+            let slide = if k == 0 || k == last { zero } else { dot(flat, across) / depth };
+            plus(plus(path[k], flat, unity), along, -slide)
+        };
+        profile.iter().map(corner).collect()
+    };
+    (0..path.len()).map(ring).collect()
+}
+
+/// The first point at which a path turns back on itself.
+fn turn_back<S: Scalar>(path: &[Three<S>]) -> Option<usize> {
+    directions(path).windows(2).position(|pair| dot(pair[0], pair[1]) < S::from_f64(BACK)).map(|k| k + 1)
+}
+
+/// The first line of a path on which a corner of the profile would go back.
+fn narrow_bend<S: Scalar>(profile: &[[S; 2]], path: &[Three<S>], scale: S) -> Option<usize> {
+    let rings = rings(profile, path, scale);
+    let is_back = |p: &Three<S>, q: &Three<S>, along: Three<S>| {
+        dot(plus(*q, *p, S::from_f64(-1.0)), along) <= S::from_f64(0.0)
+    };
+    directions(path)
+        .into_iter()
+        .enumerate()
+        .find(|(k, along)| rings[*k].iter().zip(&rings[k + 1]).any(|(p, q)| is_back(p, q, *along)))
+        .map(|(k, _)| k)
+}
+
 impl Sweep {
-    fn along(&self) -> impl Iterator<Item = Vec3> + '_ {
-        self.path.windows(2).map(|ends| (ends[1] - ends[0]).unit().unwrap_or(Vec3::AXES[1]))
+    fn path(&self) -> Vec<Three<f64>> {
+        self.path.iter().map(|p| p.to_array()).collect()
     }
 
     /// The corners of the section at each point of the path, counter-clockwise seen against it.
     fn rings(&self) -> Vec<Vec<Vec3>> {
-        let corners = counter_clockwise(self.profile.to_vec());
-        let mut sections = Vec::with_capacity(self.path.len());
-        for along in self.along() {
-            let next =
-                sections.last().map_or_else(|| Section::first(along), |last: &Section| last.bent(along));
-            sections.push(next);
-        }
-        let lengths: Vec<f64> = self.path.windows(2).map(|ends| (ends[1] - ends[0]).norm()).collect();
-        let whole: f64 = lengths.iter().sum();
-        let mut gone = 0.0;
-        let ring = |k: usize| {
-            let last = self.path.len() - 1;
-            let (before, after) = (sections[k.saturating_sub(1)], sections[k.min(last - 1)]);
-            let scale = if k == last { self.scale } else { 1.0 + (self.scale - 1.0) * gone / whole };
-            gone += lengths.get(k).copied().unwrap_or(0.0);
-            let [sideways, up, along] = before.0;
-            // The plane of the mitre is as steep to one side of the bend as to the other.
-            let across = along + after.0[2];
-            let depth = across.dot(along);
-            let moved = move |[x, y]: Pair| {
-                let flat = (sideways * x + up * y) * scale;
-                let slide = if k == 0 || k == last { 0.0 } else { flat.dot(across) / depth };
-                self.path[k] + flat - along * slide
-            };
-            corners.iter().map(|p| moved(*p)).collect()
-        };
-        (0..self.path.len()).map(ring).collect()
+        let rings = rings(&counter_clockwise(self.profile.to_vec()), &self.path(), self.scale);
+        rings.into_iter().map(|ring| ring.into_iter().map(Vec3::from).collect()).collect()
     }
 
     /// The closed surface, its points moved by `apply`.
@@ -123,25 +185,32 @@ impl Measured for Arc<Sweep> {
 
     fn check(&self, checks: Checks) -> Result<(), GeomError> {
         check_section("profile of a sweep", &self.profile, MOST)?;
-        let path = self.path.iter().map(|p| p.to_array()).collect::<Vec<_>>();
+        let path = self.path();
         check_points("path of a sweep", &path, (2, MOST))?;
         checks.not_negative("scale", self.scale)?;
-        let along: Vec<Vec3> = self.along().collect();
-        if let Some(k) = along.windows(2).position(|pair| pair[0].dot(pair[1]) < BACK) {
-            return bad(format!("the path of a sweep turns back on itself at point {}", k + 1));
+        if let Some(k) = turn_back(&path) {
+            return bad(format!("the path of a sweep turns back on itself at point {k}"));
         }
-        let rings = self.rings();
-        for (k, along) in along.iter().enumerate() {
-            let is_turned = |(p, q): (&Vec3, &Vec3)| (*q - *p).dot(*along) <= 0.0;
-            if rings[k].iter().zip(&rings[k + 1]).any(is_turned) {
-                return bad(format!(
-                    "the profile of a sweep is too wide for the bend of its path between points {k} and {}: \
-                     draw the path with a gentler bend there, or with points that are farther apart",
-                    k + 1
-                ));
-            }
+        match narrow_bend(&self.profile, &path, self.scale) {
+            Some(k) => bad(format!(
+                "the profile of a sweep is too wide for the bend of its path between points {k} and {}: \
+                 draw the path with a gentler bend there, or with points that are farther apart",
+                k + 1
+            )),
+            None => Ok(()),
         }
-        Ok(())
+    }
+
+    fn form(&self) -> Form {
+        if self.path.len() == 2 && is_convex(&self.profile) { Form::Convex } else { Form::Mesh }
+    }
+
+    fn hull(&self, placement: &Placement) -> Option<Coarse> {
+        let ends =
+            self.rings().into_iter().map(|ring| ring.into_iter().map(|p| placement.apply(p)).collect());
+        let [start, mut end]: [Vec<Vec3>; 2] = ends.collect::<Vec<_>>().try_into().ok()?;
+        end.truncate(if self.scale == 0.0 { 1 } else { end.len() });
+        Polytope::between(start, &end).map(Coarse::new)
     }
 
     fn bytes(&self) -> usize {
@@ -154,8 +223,8 @@ impl Measured for Arc<Sweep> {
 
     /// A frame in the middle of the first section; y along the path.
     fn frame(&self, placement: &Placement) -> Placement {
-        let along = self.along().next().unwrap_or(Vec3::AXES[1]);
-        let [sideways, _, along] = Section::first(along).0;
+        let ends = [self.path[0], self.path[1]].map(|p| p.to_array());
+        let [sideways, _, along] = Section::first(directions(&ends)[0]).0.map(Vec3::from);
         let first = self.rings().swap_remove(0);
         let middle = first.iter().fold(Vec3::ZERO, |sum, p| sum + *p) / first.len() as f64;
         let rotation = Mat3 { columns: [sideways, along, sideways.cross(along)] };
@@ -186,6 +255,12 @@ impl<S: Scalar> Word<S> for SweepWord<S> {
     type Solid = Arc<Sweep>;
 
     fn solid(&self) -> Result<(Arc<Sweep>, Placement), GeomError> {
+        note_simple(&self.profile);
+        let numbers = self.profile.iter().flatten().chain(self.path.iter().flatten()).chain([&self.scale]);
+        if self.path.len() > 1 && numbers.into_iter().any(|x| x.varies()) {
+            let _ = turn_back(&self.path);
+            let _ = narrow_bend(&self.profile, &self.path, self.scale);
+        }
         let sweep = Sweep {
             profile: self.profile.iter().map(|pair| pair.map(Scalar::value)).collect(),
             path: self.path.iter().map(|p| plain(*p)).collect(),
@@ -233,6 +308,7 @@ mod tests {
             (&BAR, &helix(), 1.0, 0.08 * 39.0 * (16.0 * 0.1_f64.sin().powi(2) + 0.0036).sqrt()),
         ] {
             let shape = swept(profile, path, scale).unwrap();
+            assert_eq!(shape.is_convex(), path.len() == 2);
             // The origin of the hook is not in its middle: the outer side of a bend is longer.
             sound(&shape, volume, if profile.len() > 4 { 0.01 } else { 1e-3 });
             let back: Vec<Pair> = profile.iter().rev().copied().collect();

@@ -325,11 +325,11 @@ pub mod kinds {
     }
     kind! {
         /// Points of space.
-        Points "Sequence[VecLike]" [Vec<[S; 3]>] Never, |never| match never {}, |arguments, at| arguments.points(at)
+        Points "Points" [Vec<[S; 3]>] Never, |never| match never {}, |arguments, at| arguments.points(at)
     }
     kind! {
         /// Points of a plane.
-        Pairs "Sequence[VecLike]" [Vec<[S; 2]>] Never, |never| match never {}, |arguments, at| arguments.pairs(at)
+        Pairs "Pairs" [Vec<[S; 2]>] Never, |never| match never {}, |arguments, at| arguments.pairs(at)
     }
     kind! {
         /// The vertices of a mesh, and its faces, which are the next parameter.

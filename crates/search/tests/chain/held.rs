@@ -376,6 +376,43 @@ fn four_strategies_hold_alike() {
     }
 }
 
+/// Held words, whose places depend on another choice, and which some lists of options lack.
+#[test]
+fn held_words_keep_their_names_where_their_places_change() {
+    let task = |options: &str| {
+        task(&format!(
+            r#"(module (fn "m" (params) (set $b (sample (dist bernoulli 0.5)))
+              (set $names (cond $b {options}))
+              (set $w (sample (dist categorical (cond $b (list 1 2 3) (list 3 2 1))) $names))
+              (set $x (index $names $w)) (do (factor (cond (eq $x "a") 0.3 0.0)))
+              (return (tuple $b $x))) (entry "m"))"#
+        ))
+    };
+    let lock = |task: &Task| hold(task, vec![("w".into(), Value::str("a"))]).expect("a lock");
+    let (moved, lacking) =
+        (r#"(list "a" "b" "c") (list "c" "b" "a")"#, r#"(list "a" "b" "c") (list "c" "b" "d")"#);
+    let locked = lock(&task(moved));
+    for (kind, kernel) in kernels() {
+        let settings = ChainSettings { seed: 4, kernel, ..ChainSettings::default() };
+        let (difference, _) = compare(&locked, &settings, 100, 30).expect("a chain");
+        assert!(difference.is_none(), "{kind}: {}", difference.unwrap_or_default());
+        let mut chain: Chain = Chain::start(&locked, &settings, 0, None).expect("a chain");
+        for _ in 0..20 {
+            chain.advance(&locked, 2, &mut |_, _| true).expect("a run");
+            let value = repr(&chain.now(&locked.program).value).expect("a value");
+            assert!(["(True, 'a')", "(False, 'a')"].contains(&value.as_str()), "{kind}: {value}");
+        }
+    }
+    // A run without the option is invalid, and the others have the whole probability.
+    let some = enumerate(&lock(&task(lacking)), 100, &mut |_| true).expect("runs with the word");
+    let values: Vec<String> = some.outcomes.iter().map(|(value, _)| repr(value).expect("a value")).collect();
+    assert_eq!(values, ["(True, 'a')"]);
+    // Equal strings are no words.
+    let double = task(r#"(list "a" "b" "a") (list "a" "a" "a")"#);
+    let fault = enumerate(&lock(&double), 100, &mut |_| true).err().expect("no words").to_string();
+    assert!(fault.contains("the choice `w` does not draw words"), "{fault}");
+}
+
 /// The values that a run has, by readable address.
 fn values(task: &Task, run: &Run) -> HashMap<String, Value> {
     let trace =

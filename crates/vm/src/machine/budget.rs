@@ -121,7 +121,9 @@ fn of_long<S: Scalar>(builtin: &Builtin<S>, args: &[Value<S>], longest: usize) -
     let all: usize = args.iter().map(length).sum();
     let each = |bytes: usize| Price::of(all, all.saturating_mul(bytes));
     match builtin.name {
-        "append" | "len" | "options" | "is_none" | "not" | "bool" | "index" | "range" | "isnan" => Price::default(),
+        "append" | "len" | "options" | "is_none" | "not" | "bool" | "index" | "range" | "isnan" => {
+            Price::default()
+        }
         "in" | "eq" | "ne" | "lt" | "le" | "gt" | "ge" => Price::of(all, 0),
         "add" => of_binary(Binary::Add, &args[0], &args[1]),
         "mul" => of_binary(Binary::Mul, &args[0], &args[1]),

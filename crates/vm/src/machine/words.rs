@@ -49,11 +49,11 @@ impl<S: Scalar> At<'_, S> {
     /// A string for a choice without words; a string that is none of its words, which makes the run invalid, as another run may
     /// have other options.
     pub fn own_value<'v>(&self, value: &'v Value<S>) -> Result<Cow<'v, Value<S>>, Fault> {
-        let Value::Str(wanted) = value else { return Ok(Cow::Borrowed(value)) };
+        let Value::Str(name) = value else { return Ok(Cow::Borrowed(value)) };
         let words = self.words().ok_or_else(|| self.no_words(value))?;
-        match words.iter().position(|word| word == wanted) {
+        match words.iter().position(|word| word == name) {
             Some(number) => Ok(Cow::Owned(Value::Int(number as i64))),
-            None => Err(self.no_option(wanted, &words)),
+            None => Err(self.no_option(name, &words)),
         }
     }
 
@@ -65,22 +65,22 @@ impl<S: Scalar> At<'_, S> {
     }
 
     #[cold]
-    fn no_option(&self, wanted: &Text, words: &[Text]) -> Fault {
+    fn no_option(&self, name: &Text, words: &[Text]) -> Fault {
         let quoted = |word: &Text| repr(&Value::<f64>::Str(word.clone())).unwrap_or_default();
         let mut listed: Vec<String> = words.iter().take(LISTED).map(quoted).collect();
         if words.len() > LISTED {
             listed.push(format!("and {} more", words.len() - LISTED));
         }
         let mut help = format!("its options are {}", listed.join(", "));
-        let nearest = words.iter().map(|word| (edits(wanted, word), word)).min_by_key(|(far, _)| *far);
+        let nearest = words.iter().map(|word| (edits(name, word), word)).min_by_key(|(far, _)| *far);
         if let Some((far, word)) = nearest
-            && 2 * far <= wanted.chars_len().max(2)
+            && 2 * far <= name.chars_len().max(2)
         {
             help = format!("did you mean {}? {help}", quoted(word));
         }
         let options = Value::list(words.iter().map(|word| Value::<S>::Str(word.clone())).collect());
         let path = self.path();
-        let message = format!("{} is not an option of the choice `{path}`", quoted(wanted));
+        let message = format!("{} is not an option of the choice `{path}`", quoted(name));
         Fault::new("unknown-option", message).about(path).with_help(help).of_call("choose", &[options])
     }
 }

@@ -145,6 +145,15 @@ LANGUAGE = (
         cure='@model\ndef m(side):\n    emit(box((0, 0, 0), (1, 1, 1)), name="wing")\n',
     ),
     Message(
+        "label-text",
+        "a label must be a constant text of one line, of at most 100 characters",
+        "not such a text",
+        why="labels are made once for the whole model, from its source, so that each site has the same label in all runs",
+        help="write a constant text; iterations of loops are numbered by themselves",
+        example='@model\ndef m(side):\n    return uniform(0, 1, label=f"width of {side}")\n',
+        cure='@model\ndef m(side):\n    return uniform(0, 1, label="width of the side")\n',
+    ),
+    Message(
         "emit-color",
         "an `emit` can color only shapes that are made in it, with a colour that is computed before it",
         "a shape made elsewhere, or a random colour",

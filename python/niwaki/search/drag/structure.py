@@ -59,10 +59,10 @@ def _alternatives(choice: _engine.Choice) -> list[Any]:
     """Other values of a discrete choice, near ones first; outside of its support a run is impossible."""
     if isinstance(choice.value, bool):
         return [not choice.value]
-    if choice.words is not None:
-        here = choice.words.index(choice.value) if choice.value in choice.words else 0
-        others = [word for word in choice.words if word != choice.value]
-        return sorted(others, key=lambda word: abs(choice.words.index(word) - here))
+    if (words := choice.words) is not None:
+        here = words.index(choice.value) if choice.value in words else 0
+        places = sorted(range(len(words)), key=lambda place: abs(place - here))
+        return [words[place] for place in places if words[place] != choice.value]
     if not isinstance(choice.value, int):
         return []
     reach = 5 if choice.family == "categorical" else 2

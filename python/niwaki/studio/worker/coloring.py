@@ -140,9 +140,9 @@ def change(job: Change, send: Any) -> Answer:
     """Measure a colouring with other colours of some regions or with other rules, without a search."""
     original, question = stored(job.source, job.number), job.question
     drawing = _drawing(question.model, question.file)
-    for color in job.changes.values():
-        if not isinstance(color, str) or re.fullmatch("#[0-9a-fA-F]{6}", color) is None:
-            raise CommandError("bad-color", f"{color!r} is not a colour: write `#rrggbb`")
+    for value in job.changes.values():
+        if not isinstance(value, str) or re.fullmatch("#[0-9a-fA-F]{6}", value) is None:
+            raise CommandError("bad-color", f"{value!r} is not a colour: write `#rrggbb`")
     colors = {name: job.changes.get(name, original.colors.get(name, "#808080")) for name in drawing.names}
     coloring_ = painted(drawing, _rules(question), colors, _weight(question))
     coloring_.sample.seed = 0
