@@ -79,6 +79,7 @@ from .words import ellipse as ellipse
 from .words import ellipsoid as ellipsoid
 from .words import emit as emit
 from .words import exponential as exponential
+from .words import extrude as extrude
 from .words import factor as factor
 from .words import flip as flip
 from .words import force as force
@@ -86,6 +87,7 @@ from .words import future as future
 from .words import gamma as gamma
 from .words import gaussian as gaussian
 from .words import geometric as geometric
+from .words import hull as hull
 from .words import infer as infer
 from .words import inverse_gamma as inverse_gamma
 from .words import laplace as laplace
@@ -103,6 +105,7 @@ from .words import normalize as normalize
 from .words import observe as observe
 from .words import poisson as poisson
 from .words import query as query
+from .words import revolve as revolve
 from .words import rotate as rotate
 from .words import rotation as rotation
 from .words import sample as sample
@@ -113,6 +116,7 @@ from .words import softeq as softeq
 from .words import sphere as sphere
 from .words import stroke as stroke
 from .words import student_t as student_t
+from .words import sweep as sweep
 from .words import torus as torus
 from .words import truncated_gaussian as truncated_gaussian
 from .words import uniform as uniform

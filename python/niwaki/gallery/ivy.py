@@ -33,11 +33,11 @@ def tip(start, angle, thick, age):
     angle = angle + gaussian(0.0, 0.35)
     end = start + STEP * vec(-sin(angle), cos(angle), 0.0)
     leaves = [leaf(start + t * (end - start), angle, side) for t, side in ((0.35, -1.0), (0.75, 1.0))]
-    emit(limb(start, end, thick, 0.96 * thick, joint="round", color=BARK), leaves, name="shoot")
-    goes_on = flip(0.95 if age < 40 else 0.0)
+    emit(limb(start, end, thick, 0.96 * thick, color=BARK), leaves, name="shoot")
+    goes_on = flip(0.8 if age < 40 else 0.0)
     if goes_on:
         future(tip, end, angle, 0.96 * thick, age + 1)
-        branches = flip(0.3)
+        branches = flip(0.25)
         if branches:
             side = choose([-1.0, 1.0])
             future(tip, start + 0.6 * (end - start), angle + side * uniform(0.5, 1.3), 0.8 * thick, age + 1)

@@ -20,16 +20,15 @@ def vase():
     height = uniform(0.3, 1.2)
     knots = [uniform(0.05, 0.42) for _ in range(7)]
     line = [(spline(knots, i * 6.0 / ROWS), height * i / ROWS) for i in range(ROWS + 1)]
-    inside = [(0.0, 0.05 * height)] + [(max(r - WALL, 0.01), y) for r, y in line[1:]] + [(0.0, height + 0.01)]
-    body = revolve([(0.0, 0.0)] + line + [(0.0, height)], color=color)
-    hollow = revolve(inside[:-2] + [(inside[-2][0], height + 0.01), (0.0, height + 0.01)], color=CREAM)
+    inside = [(max(r - WALL, 0.0), max(y, 0.05 * height)) for r, y in line[2:]]
+    body = revolve([(0.0, 0.0)] + line + list(reversed(inside)) + [(0.0, 0.05 * height)], color=color)
     handles = choose({"none": 2, "one": 1, "two": 2})
     if handles == "none":
-        emit(body - hollow, name="body")
+        emit(body, name="body")
     else:
         low, high = uniform(0.3, 0.55), uniform(0.7, 0.95)
         sides = [1.0] if handles == "one" else [-1.0, 1.0]
-        emit(body - hollow, [handle(knots, height, low, high, side, color) for side in sides], name="body")
+        emit(body, [handle(knots, height, low, high, side, color) for side in sides], name="body")
 
 
 def handle(knots, height, low, high, side, color):

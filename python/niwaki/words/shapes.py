@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from niwaki.words.measures import Axis, Bark, Color, Frame, Rotation, make
+from niwaki.words.measures import Axis, Bark, Color, Frame, Pairs, Points, Rotation, make
 from niwaki.words.vectors import VecLike
 
 __all__ = [
@@ -22,11 +22,15 @@ __all__ = [
     "disc",
     "ellipse",
     "ellipsoid",
+    "extrude",
+    "hull",
     "limb",
     "mesh",
+    "revolve",
     "segment",
     "sphere",
     "stroke",
+    "sweep",
     "torus",
     "wedge",
 ]
@@ -447,6 +451,134 @@ def arch(
     return make("arch", center, size, thickness, rotation, color, metalness, roughness)
 
 
+def extrude(
+    polygon: Pairs,
+    height: float,
+    center: VecLike = (0.0, 0.0, 0.0),
+    twist: float = 0.0,
+    taper: float = 1.0,
+    axis: str = "y",
+    rotation: Rotation | None = None,
+    bevel: float | None = None,
+    color: Color | None = None,
+    metalness: float | None = None,
+    roughness: float | None = None,
+) -> Any:
+    """A prism over a polygon, which may be concave.
+
+    Parameters
+    ----------
+    polygon
+        Its corners in order, in either direction: pairs (x, z); with the axis "z" (x, y), with "x" (z, y).
+    height
+        Length along the axis, greater than 0.
+    center
+        Where the polygon's origin goes.
+    twist
+        The angle by which the far end is turned about the axis, in radians.
+    taper
+        How much the far end is scaled about the polygon's origin; 0 for a tip.
+    axis
+        "x", "y" or "z": where it goes from the polygon.
+    rotation
+        Turns it about the polygon's origin.
+    bevel
+        Width of the bevelled edges, drawn only.
+    color
+        `(r, g, b)` in [0, 1].
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
+    roughness
+        From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    """
+    return make(
+        "extrude", polygon, height, center, twist, taper, axis, rotation, bevel, color, metalness, roughness
+    )
+
+
+def revolve(
+    profile: Pairs,
+    center: VecLike = (0.0, 0.0, 0.0),
+    axis: Axis = "y",
+    rotation: Rotation | None = None,
+    bevel: float | None = None,
+    color: Color | None = None,
+    metalness: float | None = None,
+    roughness: float | None = None,
+) -> Any:
+    """A solid of revolution, such as a vase.
+
+    Parameters
+    ----------
+    profile
+        Points of a line, in either direction: pairs (radius, height), the radius from the axis. Ends that are not on the axis are closed
+        by discs; a line that ends where it begins makes a ring.
+    center
+        Where the point of the axis at height 0 goes.
+    axis
+        The axis: "x", "y", "z" or a direction.
+    rotation
+        Turns it about this point.
+    bevel
+        Width of the bevelled edges, drawn only.
+    color
+        `(r, g, b)` in [0, 1].
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
+    roughness
+        From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    """
+    return make("revolve", profile, center, axis, rotation, bevel, color, metalness, roughness)
+
+
+def sweep(
+    profile: Pairs,
+    path: Points,
+    scale: float = 1.0,
+    color: Color | None = None,
+    metalness: float | None = None,
+    roughness: float | None = None,
+) -> Any:
+    """A polygon that is drawn along a path of straight lines, such as a handrail.
+
+    Parameters
+    ----------
+    profile
+        Corners of the polygon in order, in either direction: pairs (sideways, up) about the path. Up is as near to the y axis as can be where
+        the path starts, or to the z axis if it starts steeply.
+    path
+        Points of the path, at least two.
+    scale
+        How much the polygon is scaled at the end of the path; 0 for a tip.
+    color
+        `(r, g, b)` in [0, 1].
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
+    roughness
+        From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    """
+    return make("sweep", profile, path, scale, color, metalness, roughness)
+
+
+def hull(
+    points: Points, color: Color | None = None, metalness: float | None = None, roughness: float | None = None
+) -> Any:
+    """The convex hull of points.
+
+    Parameters
+    ----------
+    points
+        At least four, not all in a plane; some may be inside.
+    color
+        `(r, g, b)` in [0, 1].
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
+    roughness
+        From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    """
+    return make("hull", points, color, metalness, roughness)
+
+
 #: The functions for shapes; the engine has one of the same name for each.
 SHAPES = (
     box,
@@ -463,4 +595,8 @@ SHAPES = (
     wedge,
     torus,
     arch,
+    extrude,
+    revolve,
+    sweep,
+    hull,
 )
