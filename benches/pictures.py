@@ -36,8 +36,8 @@ from PIL import Image
 LARGEST = 300_000
 
 #: A line from the foot of a vase over its rim into it: radii and heights.
-VASE = [(0.0, 0.0), (0.4, 0.0), (0.45, 0.1), (0.7, 0.5), (0.72, 0.7), (0.6, 1.1), (0.35, 1.4), (0.35, 1.5), (0.5, 1.8)]
-VASE += [(0.42, 1.8), (0.27, 1.5), (0.27, 1.4), (0.52, 1.1), (0.62, 0.6), (0.0, 0.2)]
+OUTSIDE = [(0.0, 0.0), (0.4, 0.0), (0.7, 0.5), (0.6, 1.1), (0.35, 1.4), (0.35, 1.5), (0.5, 1.8)]
+INSIDE = [(0.42, 1.8), (0.27, 1.5), (0.27, 1.4), (0.52, 1.1), (0.62, 0.6), (0.0, 0.2)]
 #: A flat bar.
 BAR = [(-0.2, -0.07), (0.2, -0.07), (0.2, 0.07), (-0.2, 0.07)]
 
@@ -74,7 +74,9 @@ def solids() -> Image.Image:
     low, middle, high = ((0.0, y, 0.0) for y in (-1.0, 0.2, 1.0))
     forward, up = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
     turned = nw.rotation((1.0, 0.0, 0.0), -math.pi / 2)
-    coil = [(0.8 * math.cos(t), 0.25 * t - 0.8, 0.8 * math.sin(t)) for t in np.linspace(0.0, 7.0, 36).tolist()]
+    coil = [
+        (0.8 * math.cos(t), 0.25 * t - 0.8, 0.8 * math.sin(t)) for t in np.linspace(0.0, 7.0, 36).tolist()
+    ]
     square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [0, 0, 1.4]])
     examples = [
         nw.box(origin, (1.6, 1.2, 1.0)),
@@ -89,7 +91,7 @@ def solids() -> Image.Image:
         nw.arch(origin, (1.8, 1.7, 0.6), 0.35),
         nw.extrude(star(), 0.7, (0.0, -0.3, 0.0)),
         nw.extrude(star(), 1.8, (0.0, -0.9, 0.0), twist=0.9, taper=0.5),
-        nw.revolve(VASE, (0.0, -0.9, 0.0)),
+        nw.revolve(OUTSIDE + INSIDE, (0.0, -0.9, 0.0)),
         nw.sweep(BAR, coil, scale=0.3),
         nw.hull([*itertools.product((-0.7, 0.7), (-0.7,), (-0.5, 0.5)), (-0.2, 0.7, 0.0), (0.7, 0.3, 0.5)]),
         nw.limb(low, high, 0.5, 0.3, end_normal=(0.5, 1.0, 0.0)),

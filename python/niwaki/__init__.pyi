@@ -59,6 +59,7 @@ from .targets.sketches import overshoot as overshoot
 from .targets.target import Receiver as Receiver
 from .targets.target import Target as Target
 from .words import arch as arch
+from .words import arrayed as arrayed
 from .words import beta as beta
 from .words import binomial as binomial
 from .words import box as box
@@ -96,6 +97,7 @@ from .words import log_normal as log_normal
 from .words import look as look
 from .words import mem as mem
 from .words import mesh as mesh
+from .words import mirrored as mirrored
 from .words import mixture as mixture
 from .words import multinomial as multinomial
 from .words import multivariate_bernoulli as multivariate_bernoulli
@@ -103,6 +105,7 @@ from .words import multivariate_gaussian as multivariate_gaussian
 from .words import norm as norm
 from .words import normalize as normalize
 from .words import observe as observe
+from .words import place as place
 from .words import poisson as poisson
 from .words import query as query
 from .words import revolve as revolve

@@ -8,16 +8,16 @@ from __future__ import annotations
 
 from math import floor
 
-#: The largest share that stands for nothing: what is left of the rounding of numbers.
-NOTHING = 1e-9
+#: A share below this is nothing: what is left of the rounding of numbers.
+LEAST = 1e-9
 
 
 def percent(share: float) -> str:
     """Write a share: the nearest whole percent, but only all is 100 %, and only nothing is 0 %."""
     whole = floor(100.0 * share + 0.5)
-    if whole < 1 and share > NOTHING:
+    if whole < 1 and share > LEAST:
         whole = 1
-    elif whole == 100 and share < 1.0 - NOTHING:
+    elif whole == 100 and share < 1.0 - LEAST:
         whole = 99
     return f"{whole} %"
 

@@ -16,6 +16,8 @@ class ChainMaker(Maker):
 
     #: Whether some of them are memoised functions.
     memo = False
+    #: Whether some of them are placed in frames.
+    place = False
 
     def remembered(self, loop: bool) -> list[str]:
         """Calls of memoised functions: of the module, and closures that capture choices."""
@@ -57,6 +59,46 @@ class ChainMaker(Maker):
         ]
         return self.random.choice(kinds)()
 
+    def placed(self, loop: bool) -> list[str]:
+        """Calls in frames: of the module and of closures, that depend on choices, in loops, recursions and futures."""
+        v, w, i = self.fresh("v"), self.fresh("w"), self.fresh("i")
+        frame = self.pick(
+            f"({self.real(1)}, n, 0)",
+            f"vec(0, {self.sampled()}, 1)",
+            f"rotation((0, 1, 0), {self.sampled()})",
+            f"((x, 0, {self.pick('n', '1')}), rotation((1, 0, {self.integer(0)}), {self.sampled()}))",
+            f"look((x, 0, 0), (math.cos({self.sampled()}), 0.0, 1.0))",
+        )
+        kinds = [
+            lambda: [f"f = f + place({frame}, knot, clip(x, -3, 3))"],
+            lambda: [f"f = f + place({frame}, twig, {self.pick('2', 'n % 3', 'poisson(1) % 3')}, 0.5)"],
+            lambda: [f"f = f + sum(mirrored({self.pick(repr('x'), '(1, x, 0)')}, knot, 0.5))"],
+            lambda: [
+                f"xs = [0.5] + arrayed([({i}, x, 0) for {i} in range({self.pick('2', 'n % 3')})], knot, x)[:3]"
+            ],
+            lambda: [
+                f"{v} = {self.sampled()}",
+                f"f = f + place({frame}, knot if flip(0.5) else bare, {v})",
+            ],
+            lambda: [f"f = f + force(place({frame}, later, {self.sampled()}))"],
+            *(
+                [
+                    lambda: [
+                        f"{v} = {self.sampled()}",
+                        f"def {w}(u):",
+                        f"    emit(box((u, {v}, 0), (1, 2, 1)))",
+                        "    return u + knot(u)",
+                        f"f = f + place({frame}, {w}, x)",
+                        f"f = f + place((0, 0, {v}), {self.pick(w, f'lambda u: {w}(u)')}, 1.0)",
+                    ]
+                ]
+                * 2
+                if not loop
+                else []
+            ),
+        ]
+        return self.random.choice(kinds)()
+
     def sampled(self) -> str:
         """A random choice of a real number, its parameters perhaps choices too."""
         return self.pick(
@@ -71,6 +113,8 @@ class ChainMaker(Maker):
         """One of the fragments here, or one of those that every program may have."""
         if self.memo and self.random.random() < 0.4:
             return self.remembered(loop)
+        if self.place and self.random.random() < 0.4:
+            return self.placed(loop)
         if self.random.random() < 0.5:
             return super().statement(depth, loop)
         v, w, i = self.fresh("v"), self.fresh("w"), self.fresh("i")
@@ -177,11 +221,25 @@ _MEMOISED = (
 )
 
 
-def program(seed: int, size: int = 6, memo: bool = False) -> Program:
-    """A random program of `size` statements, perhaps with memoised functions."""
+#: Functions that are placed: with a shape, in themselves, with a future, and without a shape.
+_PLACED = (
+    "def knot(x):\n    y = gaussian(x, 1)\n    emit(box((y, 0, 0), (1, 1, 2)))\n    return y",
+    "def twig(n, x):\n"
+    "    y = knot(x)\n"
+    "    if n == 0:\n"
+    "        return y\n"
+    "    turned = (0, y, 0) if flip(0.5) else ((y, 1, 0), rotation((0, 0, 1), 0.5))\n"
+    "    return place(turned, twig, n - 1, 0.5 * y)",
+    "def later(x):\n    return future(twig, 1, x)",
+    "def bare(x):\n    return 0.5 * x",
+)
+
+
+def program(seed: int, size: int = 6, memo: bool = False, place: bool = False) -> Program:
+    """A random program of `size` statements, perhaps with memoised functions, perhaps with calls in frames."""
     maker = ChainMaker(seed)
-    maker.memo = memo
+    maker.memo, maker.place = memo, place
     for _ in range(maker.random.randint(0, 2)):
         maker.helpers.append(maker.helper())
-    helpers = (*maker.helpers, *_RECURSIONS, *(_MEMOISED if memo else ()))
+    helpers = (*maker.helpers, *_RECURSIONS, *(_MEMOISED if memo else ()), *(_PLACED if place else ()))
     return Program(helpers, tuple(tuple(maker.statement(2)) for _ in range(size)))

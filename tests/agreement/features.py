@@ -84,6 +84,42 @@ def m():
     f = look((0, 0, x), (0, 2.0 + a, 0.1)) if u else look((x, 0), vec(1, a))
     return f, f.up, f[0].x, [look((n, n), (n + 1, x)).forward for n in range(2)]
 """,
+    "place": """
+def leg(h, r):
+    lean = gaussian(0, 0.1)
+    emit(box((lean, h / 2, 0), (r, h, r)), name="leg")
+    rings = [((0, y, 0), (0, 1, 0), (0, 0, -1), 1 - y / 9) for y in (0, 0.2, 4)]
+    emit(limb((0, h, 0), (0, h + 1, lean), r, 0.1), [segment(rings[0], rings[1], rings[2])])
+    return lean
+def pair(h):
+    frame = look((h, 0, 0), (gaussian(), 0, 1))
+    return place(frame, leg, h, 0.2), mirrored("z", leg, h, 0.1)
+def blot(r):
+    emit(disc((1, 0, 0), r), stroke((0, 0, 1), (2, r, 1), 0.5))
+    return [future(blot, r / 2)] if r > 0.5 else None
+def skew(x):
+    return place(((0, 0, 1), (x, 0, 0), (x, 1, 0), 1.0), leg, 1.0, 0.5)
+@mem
+def shared(k):
+    emit(box((k, -5, 0), (1, 1, 1)))
+    return gaussian(k, 1)
+def m():
+    h = uniform(1, 2)
+    out = place((0, h, 0), pair, h)
+    spots = [(x, 0, h) for x in linspace(-h, h, 3)]
+    out = out, arrayed(spots, leg, h, 0.3), mirrored((1, h, 0), lambda a, b=2.0: leg(a, b) + shared(1), h)
+    place((2, 1), blot, h), place(((0, h), rotation((0, 0, 1), h)), blot, 1)
+    kept = leg if flip() else lambda a, b: place((0, 0, a), leg, a, b) * 2
+    turned = [place(rotation((0, h, 1), k), kept, 1.0, 0.2) for k in range(2)]
+    return out, turned, place((1, 0, 0), shared, 1), shared(1), smoothstep(h, 1, 3), smoothstep(h - 1), linspace(h, 3, 1), skew(1.0 if h < 3 else h)
+""",
+    "a frame that is none": """
+def leg(h):
+    emit(box((0, h / 2, 0), (h, h, h)), name="leg")
+def m():
+    x = uniform(0, 1)
+    return place((1, 0, 0), lambda: mirrored(x if x < 2 else "x", leg, 1.0))
+""",
     "segment": """
 def m():
     up, back = vec(0, 1, 0), vec(0, 0, -1)

@@ -89,10 +89,10 @@ def disagreement(text: str, seed: int, steps: int, tally: Tally | None = None) -
     return difference or ""
 
 
-def look(seeds: Iterator[int], steps: int, memo: bool = False) -> Tally:
+def look(seeds: Iterator[int], steps: int, memo: bool = False, place: bool = False) -> Tally:
     tally = Tally()
     for seed in seeds:
-        whole = program(seed, memo=memo)
+        whole = program(seed, memo=memo, place=place)
         if disagreement(whole.text, seed, steps, tally):
             small = shrink(whole, lambda text: bool(disagreement(text, seed, steps)))  # noqa: B023
             pytest.fail(f"seed {seed}\n{small.text}\n{disagreement(small.text, seed, steps)}")
@@ -142,6 +142,36 @@ def test_strategies_agree_on_a_wall_with_holes() -> None:
         difference, proposals, accepted, _ = _engine.agreement(compiled, method, seed, 50, 10, functions)
         assert not difference, difference
         assert proposals > 30 and accepted > 0
+
+
+SOLIDS = """@model
+def m():
+    wide, deep = uniform(0.5, 2.0), gaussian(1.0, 0.5)
+    n = 1 + poisson(1) % 4
+    corners = [(0.0, 0.0), (wide, 0.0), (wide, deep), (0.0, 1.0)]
+    emit(extrude(corners, 1.0 + n, (0.0, 2.0 * n, 0.0), twist=0.1 * n))
+    path = [(5.0 + k, 0.0, gaussian(0.0, 1.0)) for k in range(1 + n)]
+    emit(sweep(corners, path, scale=wide))
+    emit(revolve([(wide, 0.0), (deep, 1.0)], center=(-5.0, 0.0, path[1][2] if flip() else 0.0)))
+    emit(hull([vec(uniform(-12, -10), k % 2, deep * (k // 2)) for k in range(3 + n)]))
+    observe(Gaussian(deep, 1.0), wide)
+    return corners
+"""
+
+
+def test_strategies_agree_on_solids_whose_points_are_choices() -> None:
+    tally = Tally()
+    text = HEADER + SOLIDS
+    for seed in range(12):
+        assert not disagreement(text, seed, 100, tally)
+    # Polygons that cross themselves are impossible, and are left again.
+    assert tally.programs > 6 and tally.accepted > 0.1 * tally.proposals / 4
+
+
+def test_strategies_agree_on_random_programs_in_frames() -> None:
+    tally = look(iter(range(40)), 100, memo=True, place=True)
+    assert tally.programs > 0.4 * 40
+    assert tally.accepted > 0.1 * tally.proposals / 4
 
 
 @pytest.mark.soak

@@ -12,8 +12,16 @@ import pytest
 import trimesh
 from niwaki import _engine
 from niwaki.shell import run_files
-from studio_page import at_rest, camera, choose, click_part, grow, timed, until, visible
+from studio_page import at_rest, camera, choose, click_part, grow, nameless, timed, until, visible
 
+#: The width of the focus's outline, and the name of the control for a screen reader.
+FOCUS = """() => {
+  const control = document.activeElement;
+  const style = getComputedStyle(control);
+  const name = control.ariaLabel || control.title || control.textContent.trim() || control.closest("label")?.innerText;
+  const isSeen = control === document.body || style.outlineStyle !== "none";
+  return {outline: control === document.body ? 1 : isSeen ? parseFloat(style.outlineWidth) : 0, name: name || ""};
+}"""
 #: The fields of the view that undo restores.
 DOCUMENT = ("model", "arguments", "ask", "settings", "results", "picked", "held", "stars")
 
@@ -307,6 +315,9 @@ def test_the_keyboard_alone_is_enough(open_page, served):
     def tab_to(condition):
         for _ in range(80):
             page.keyboard.press("Tab")
+            # Every stop is seen, and has a name for a screen reader.
+            seen = page.evaluate(FOCUS)
+            assert seen["outline"] >= 1 and seen["name"], seen
             if page.evaluate(f"(control => {condition})(document.activeElement)"):
                 return
         raise AssertionError(f"no control with {condition}")
@@ -316,8 +327,7 @@ def test_the_keyboard_alone_is_enough(open_page, served):
     until(page, "window.__studio.view.model.reference == 'spaceship'")
     tab_to("control.title == 'Add an object'")
     page.keyboard.press("Enter")
-    until(page, "document.querySelector('[role=menuitem]')")
-    tab_to("control.getAttribute('role') == 'menuitem'")
+    until(page, "document.activeElement.getAttribute('role') == 'menuitem'")
     page.keyboard.press("Enter")
     until(page, "window.__studio.view.ask.floor == -1")
     tab_to("control.type == 'range' && control.closest('label').innerText.startsWith('results')")
@@ -348,6 +358,17 @@ def test_the_keyboard_alone_is_enough(open_page, served):
     until(page, "window.__studio.view.held.length == 1")
     page.keyboard.press("Control+z")
     until(page, "window.__studio.view.held.length == 0")
+    page.keyboard.press("r")
+    until(page, "window.__studio.view.results.some(result => result.origin == 'regrow')")
+    tab_to("control.textContent.trim() == 'Export'")
+    page.keyboard.press("Enter")
+    until(page, "document.activeElement.textContent.startsWith('GLB')")
+    page.keyboard.press("ArrowDown")
+    until(page, "document.activeElement.textContent.startsWith('STL')")
+    with page.expect_download() as download:
+        page.keyboard.press("Enter")
+    assert len(trimesh.load(download.value.path(), file_type="stl").faces) > 100
+    assert nameless(page) == 0
 
 
 def test_the_five_places_have_names_for_a_screen_reader(open_page, served):

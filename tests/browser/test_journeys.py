@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from niwaki import studio
+from niwaki import gallery, studio
 from studio_page import (
     at_rest,
     camera,
@@ -35,8 +35,8 @@ def test_fill(open_page, served):
     before = camera(page)
     with timed("first shape"):
         page.locator("button.primary").click()
-        until(page, "window.__studio.shown.triangles > 0")
-    assert page.evaluate("window.__studio.shown.role") in ("best", "result")
+        until(page, "['best', 'result'].includes(window.__studio.shown.role)")
+    assert page.evaluate("window.__studio.shown.triangles > 0")
     with timed("gallery"):
         until(page, "window.__studio.view.results.length >= 2")
     until(
@@ -60,11 +60,11 @@ def test_shape_by_hand(open_page, served):
     call = address.rpartition("/")[0]
     assert page.evaluate("window.__studio.selection.level") == call
     assert "spaceship.py:" in page.locator(".source").inner_text()
-    labels = page.evaluate("window.__studio.described.labels")
-    assert labels["while[0]/kind"] == ["Section 1 › kind", "kind"]
-    whole, last = labels[call]
+    ship = gallery.entry("spaceship").model
+    whole, last = ship.labels.label(call), ship.labels.short(call)
     crumbs = page.locator(".levels button").all_inner_texts()
     assert crumbs[-1] == last and last.startswith("section") and " › " in whole
+    assert page.locator(".levels button[aria-current=true]").get_attribute("title") == call
     assert any(crumb.startswith("wing") for crumb in crumbs) and "while" not in "".join(crumbs)
     fit = page.evaluate("window.__studio.view.results[0].fit")
     assert page.locator(".card .caption span").first.inner_text() == fit and fit.endswith("% outside")
@@ -119,6 +119,8 @@ def test_write(open_page, served, pile):
         with timed("error"):
             pile.write_text(good.replace("w = uniform(0.5, 2.0)", "w = [uniform(0.5, 2.0)]\n    w.append(1)"))
             until(page, "document.querySelector('.problem')")
+        assert "^^^" not in page.locator(".problem").inner_text()
+        page.locator(".problem summary").click()
         text = page.locator(".problem").inner_text()
         assert "pile.py:15" in text and "w.append(1)" in text and "^^^" in text
         assert page.evaluate("window.__studio.shown.triangles") == triangles

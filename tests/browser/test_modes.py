@@ -203,3 +203,20 @@ def test_a_structure_still_stands_after_a_call_is_grown_again(open_page, served)
     until(page, f"window.__studio.view.picked.run != {run}")
     until(page, "window.__studio.judged?.key.run == window.__studio.view.picked.run")
     assert page.evaluate("window.__studio.judged.holds")
+
+
+def test_a_choice_among_words_is_a_list_of_its_options(open_page, served):
+    page = open_page(served)
+    choose(page, "vines", 1, seed=2)
+    grow(page)
+    at_rest(page)
+    options = page.locator(".choice select").first
+    assert options.locator("option").all_inner_texts() == ["none", "left", "right"]
+    other = "left" if options.input_value() == "right" else "right"
+    picture(page, "words")
+    run = page.evaluate("window.__studio.view.picked.run")
+    options.select_option(other)
+    until(page, f"window.__studio.view.picked.run != {run}")
+    at_rest(page)
+    assert page.locator(".choice select").first.input_value() == other
+    assert not nameless(page)

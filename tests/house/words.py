@@ -28,7 +28,7 @@ Row = tuple[str, str, str | None, str]
 _HEAD = '''"""Shapes, the things that `emit` adds to a scene. Right-handed, y up, metres by default.
 
 A point is a 3-tuple, a list or a `vec`. Flat shapes lie on a plane parallel to z = 0, and are seen from +z. A colour
-is `(r, g, b)` in [0, 1]. A rotation is three rows of three numbers, as `rotation(axis, angle)` gives. In a
+is `(r, g, b)` in [0, 1] or a name. A rotation is three rows of three numbers, as `rotation(axis, angle)` gives. In a
 plain-Python run a shape is the engine's own `Shape`.
 
 Written by tests/house/words.py from the engine's table of solids.
@@ -81,7 +81,7 @@ def _quoted(name: str) -> str:
 def _function(name: str, doc: str, rows: list[Row]) -> str:
     """A word in Python: the signature, the docstring and the call."""
     parameters = [_parameter(*row) for row in rows]
-    arguments = ", ".join([_quoted(name), *(row[0] for row in rows)])
+    arguments = [_quoted(name), *(row[0] for row in rows)]
     lines = [_fitted(f"def {name}(", parameters, ") -> Any:", ""), f'    """{_indented(doc)}', ""]
     lines += [*_parameters(rows), _call(arguments)]
     return "\n".join(lines) + "\n"
@@ -109,17 +109,17 @@ def _fitted(opening: str, parts: list[str], closing: str, indent: str) -> str:
     return "\n".join([opening, *(f"    {part}," for part in parts), closing])
 
 
-def _call(arguments: str) -> str:
-    line = f"    return make({arguments})"
-    return line if len(line) <= 110 else f"    return make(\n        {arguments}\n    )"
+def _call(arguments: list[str]) -> str:
+    text = _fitted("return make(", arguments, ")", "    ")
+    return "\n".join(f"    {line}" for line in text.split("\n"))
 
 
 def _indented(doc: str, by: int = 4) -> str:
     """The text of a comment as a docstring: a blank after each line's start is the comment's."""
-    return "\n".join(
-        " " * by * (k > 0 and bool(line)) + line
-        for k, line in enumerate(re.sub(r"\n ", "\n", doc).split("\n"))
-    )
+    text = re.sub(r"\n ", "\n", doc)
+    if any(by + len(line) > 118 for line in text.split("\n")):
+        text = "\n\n".join(textwrap.fill(part, 112 - by) for part in text.split("\n\n"))
+    return "\n".join(" " * by * (k > 0 and bool(line)) + line for k, line in enumerate(text.split("\n")))
 
 
 _CLASSES_HEAD = '''"""Distributions as values: `sample(Gaussian(0, 1))`, `observe(Gaussian(m, s), x)`.

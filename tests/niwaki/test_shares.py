@@ -1,7 +1,6 @@
 """Shares for people: whole percents, where only all is 100 % and only nothing is 0 %."""
 
 import pytest
-
 from niwaki.shares import coverage, percent
 from niwaki.studio.messages import Key, Outcome
 from niwaki.targets.fit import Fit

@@ -146,9 +146,18 @@ def grow(page):
     until(page, f"!window.__studio.view.searching && (window.__studio.view.picked?.run ?? -1) != {runs}")
 
 
+#: Whether the fine shape and the choices are those of the active result.
+AT_REST = """(() => {
+  const name = key => key && `${key.run}.${key.number ?? 0}`;
+  const {view, shown, described} = window.__studio;
+  const now = name(view.picked);
+  return shown.detail == "fine" && described && name(shown.key) == now && name(described.key) == now;
+})()"""
+
+
 def at_rest(page):
     """Wait for the fine shape and its choices."""
-    until(page, "window.__studio.shown.detail == 'fine' && window.__studio.described")
+    until(page, AT_REST)
 
 
 def click_part(page, address):

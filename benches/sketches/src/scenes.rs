@@ -4,8 +4,8 @@ use niwaki_geom::solids::{Extrusion, PointHull, Revolution, Sweep};
 use niwaki_geom::view::camera::Camera;
 use niwaki_geom::view::{Lens, Light, shadow_rays};
 use niwaki_geom::{
-    GeomError, Look, Mat3, Operation, Picture, Primitive, Rule, Shape, SketchSpec, Target, TargetPicture, TriMesh, Vec3,
-    avoid, floor, match_image, match_shadow, match_volume, no_self_intersection, vec3,
+    GeomError, Look, Mat3, Operation, Picture, Primitive, Rule, Shape, SketchSpec, Target, TargetPicture,
+    TriMesh, Vec3, avoid, floor, match_image, match_shadow, match_volume, no_self_intersection, vec3,
 };
 use std::f64::consts::TAU;
 use std::sync::Arc;

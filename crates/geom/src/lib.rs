@@ -6,7 +6,6 @@
 //! - [`solids`]: every kind of solid, a file each, and the shapes that a model emits
 //! - [`polygon`]: sections of solids
 //! - [`plane`]: flat shapes, and which pixels of a page they cover
-//! - [`cut`]: solids cut from other solids
 //! - [`voxel`]: which cells of a grid a shape fills
 //! - [`intersect`]: whether two shapes intersect
 //! - [`view`]: the rays of a picture, and which of them meet a shape
@@ -16,12 +15,12 @@
 //! - [`window`]: what a sketch shows around a place
 //! - [`fine`]: meshes with many sides, for pictures and files
 //! - [`store`]: geometry that shapes have needed lately
+//! - `winding`: closed surfaces around a point
 //! - `once`: values that are computed when they are first needed
 
 pub mod bounds;
 pub mod bricks;
 pub mod convex;
-pub mod cut;
 pub mod error;
 pub mod fine;
 mod folds;
@@ -45,12 +44,12 @@ pub mod tree;
 pub mod tube;
 pub mod view;
 pub mod voxel;
+mod winding;
 pub mod window;
 
 pub use bounds::{Aabb, FAR};
 pub use bricks::Target;
 pub use convex::{Coarse, Convex};
-pub use cut::{Cut, Operation};
 pub use error::GeomError;
 pub use intersect::{Rule, intersects};
 pub use look::Look;
@@ -61,6 +60,7 @@ pub use plane::Page;
 pub use polytope::Hull;
 pub use ring::Ring;
 pub use sketch::*;
+pub use solids::cut::{Cut, Operation};
 pub use solids::primitive::Primitive;
 pub use solids::shape::Shape;
 pub use solids::{Cuboid, Cylinder, Ellipse, Solid, Stroke};

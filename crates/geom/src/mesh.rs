@@ -18,6 +18,9 @@ pub struct TriMesh {
     /// Flat parts that lie over themselves, computed at the first fill.
     #[serde(skip)]
     folds: OnceLock<Arc<[Fold]>>,
+    /// Its reflection, computed when it is first used.
+    #[serde(skip)]
+    mirrored: OnceLock<Arc<TriMesh>>,
 }
 
 impl PartialEq for TriMesh {
@@ -63,7 +66,7 @@ impl TriMesh {
             let message = format!("face {i} is {:?}, but there are only {count} vertices", triangles[i]);
             return Err(GeomError::new("bad-shape", message));
         }
-        Ok(TriMesh { vertices, triangles, folds: OnceLock::new() })
+        Ok(TriMesh { vertices, triangles, folds: OnceLock::new(), mirrored: OnceLock::new() })
     }
 
     /// The vertices.
@@ -94,13 +97,27 @@ impl TriMesh {
     /// The mesh with every vertex moved by `f`.
     pub fn map(&self, f: impl Fn(Vec3) -> Vec3) -> TriMesh {
         let vertices = self.vertices.iter().map(|v| f(*v)).collect();
-        TriMesh { vertices, triangles: self.triangles.clone(), folds: OnceLock::new() }
+        TriMesh {
+            vertices,
+            triangles: self.triangles.clone(),
+            folds: OnceLock::new(),
+            mirrored: OnceLock::new(),
+        }
     }
 
     /// The mesh scaled, turned and moved by `f`. Its flat parts stay flat, and are not computed again.
     pub fn placed(&self, f: impl Fn(Vec3) -> Vec3) -> TriMesh {
         self.folds();
         TriMesh { folds: self.folds.clone(), ..self.map(f) }
+    }
+
+    /// The mesh reflected at the plane x = 0: the same one at each call.
+    pub(crate) fn mirrored(&self) -> Arc<TriMesh> {
+        let reflect = || {
+            let triangles = self.triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect();
+            Arc::new(TriMesh { triangles, ..self.map(Vec3::mirrored) })
+        };
+        self.mirrored.once(reflect).clone()
     }
 
     /// The flat parts that lie over themselves.

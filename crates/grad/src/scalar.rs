@@ -38,7 +38,7 @@ pub fn with_sheet<R>(f: impl FnOnce() -> R) -> (R, Sheet) {
     on_sheet(Sheet::default(), f)
 }
 
-/// Records the operations of `f`, and the numbers that it notes: see [`Var::noted`].
+/// Records the operations of `f`, and the numbers that it notes: see [`Scalar::noted`].
 pub fn with_notes<R>(f: impl FnOnce() -> R) -> (R, Sheet) {
     on_sheet(Sheet { notes: Some(HashMap::new()), ..Sheet::default() }, f)
 }
@@ -160,14 +160,6 @@ impl Var {
         Var::on_graph(value, |sheet| {
             let (a, b) = (self.id(&mut sheet.graph), other.id(&mut sheet.graph));
             sheet.graph.binary(op, a, b)
-        })
-    }
-
-    /// The last note under an address; empty if there is none that varies.
-    pub fn noted(address: usize) -> Vec<Var> {
-        SHEET.with_borrow(|sheet| {
-            let notes = sheet.as_ref().and_then(|sheet| sheet.notes.as_ref());
-            notes.and_then(|notes| notes.get(&address)).cloned().unwrap_or_default()
         })
     }
 
@@ -340,5 +332,11 @@ impl Scalar for Var {
                 }
             });
         }
+    }
+    fn noted(address: usize) -> Vec<Var> {
+        SHEET.with_borrow(|sheet| {
+            let notes = sheet.as_ref().and_then(|sheet| sheet.notes.as_ref());
+            notes.and_then(|notes| notes.get(&address)).cloned().unwrap_or_default()
+        })
     }
 }

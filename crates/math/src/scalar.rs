@@ -92,6 +92,11 @@ pub trait Scalar:
     /// needs it: the place of a shape, under the shape's address. Only a recording that asks for these numbers calls `numbers`.
     #[inline(always)]
     fn note(_address: usize, _numbers: impl FnOnce() -> Vec<Self>) {}
+    /// The last numbers noted under an address; empty if there are none.
+    #[inline(always)]
+    fn noted(_address: usize) -> Vec<Self> {
+        Vec::new()
+    }
 }
 
 /// A cache of the last logarithm: consecutive observations with equal deviations compute it once.

@@ -85,6 +85,13 @@ impl Vec3 {
         [self.x, self.y, self.z]
     }
 
+    /// The vector reflected at the plane x = 0.
+    #[inline]
+    pub fn mirrored(self) -> Vec3 {
+        // Not `-x`, which is -0.0 for zero.
+        vec3(0.0 - self.x, self.y, self.z)
+    }
+
     /// The vector turned about the unit vector `axis` by `angle`, by the right-hand rule (Rodrigues' formula).
     pub fn rotated(self, axis: Vec3, angle: f64) -> Vec3 {
         let (sin, cos) = angle.sin_cos();

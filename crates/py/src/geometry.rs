@@ -8,10 +8,12 @@ use crate::views::{PyDrawing, PyPicture};
 use niwaki_geom::sketch::{SKETCHES, SketchForm};
 use niwaki_geom::solids::WORDS;
 use niwaki_geom::{
-    Ellipse, GeomError, Inputs, Operation, Primitive, Shape, SketchSpec, Sketches, Solid, Stroke, Target, TriMesh, Vec3,
+    Ellipse, GeomError, Inputs, Operation, Primitive, Shape, SketchSpec, Sketches, Solid, Stroke, Target,
+    TriMesh, Vec3,
 };
 use niwaki_math::Parameter;
 use niwaki_vm::builtins::{builtin, builtin_id, placed_mesh};
+use niwaki_vm::fault::Fault;
 use niwaki_vm::value::Value;
 use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray2, PyArray3, PyReadonlyArray2};
@@ -109,14 +111,29 @@ fn shape(word: &str, args: &Bound<'_, PyTuple>, named: Option<&Bound<'_, PyDict>
         Some(mesh) => placed_mesh(mesh, &values),
         None => builtin(builtin_id(word).expect("each word is a built-in function")).call(&values),
     };
-    match answer {
-        Ok(Value::Shape(shape)) => Ok(PyShape(shape)),
-        Ok(other) => Err(PyTypeError::new_err(format!("`{word}` makes {}", other.described()))),
-        Err(fault) if ["type-mismatch", "argument-count"].contains(&fault.code) => {
-            Err(PyTypeError::new_err(fault.message.clone()))
-        }
-        Err(fault) => Err(value_error(py, &GeomError::new(fault.code, fault.message.clone()))),
+    match answer.map_err(|fault| raised(py, &fault))? {
+        Value::Shape(shape) => Ok(PyShape(shape)),
+        other => Err(PyTypeError::new_err(format!("`{word}` makes {}", other.described()))),
     }
+}
+
+/// A fault of a built-in function as an exception.
+fn raised(py: Python<'_>, fault: &Fault) -> PyErr {
+    match fault.code {
+        "type-mismatch" | "argument-count" => PyTypeError::new_err(fault.message.clone()),
+        code => value_error(py, &GeomError::new(code, fault.message.clone())),
+    }
+}
+
+/// Calls a built-in function of models by its ``name``.
+#[pyfunction]
+#[pyo3(signature = (name, /, *args))]
+fn operation<'py>(name: &str, args: &Bound<'py, PyTuple>) -> PyResult<Bound<'py, PyAny>> {
+    let (py, classes) = (args.py(), Classes::default());
+    let id =
+        builtin_id(name).ok_or_else(|| PyTypeError::new_err(format!("there is no operation `{name}`")))?;
+    let values: Vec<Value> = args.iter().map(|argument| classes.value(&argument)).collect::<PyResult<_>>()?;
+    classes.object(py, &builtin(id).call(&values).map_err(|fault| raised(py, &fault))?)
 }
 
 /// Measures of a flat shape for drawings.
@@ -173,6 +190,12 @@ impl PyShape {
     #[getter]
     fn roughness(&self) -> Option<f32> {
         self.0.roughness()
+    }
+
+    /// The name of the material, or None.
+    #[getter]
+    fn material(&self) -> Option<&str> {
+        self.0.material()
     }
 
     /// Smallest and largest corner of the box around the coarse mesh, scene units.
@@ -438,6 +461,7 @@ type Row = (&'static str, &'static str, Option<&'static str>, &'static str);
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyShape>()?;
     module.add_function(wrap_pyfunction!(shape, module)?)?;
+    module.add_function(wrap_pyfunction!(operation, module)?)?;
     let words = PyDict::new(module.py());
     for word in WORDS {
         let parameters: Vec<Row> = word.parameters().map(Parameter::row).collect();

@@ -124,8 +124,9 @@ impl Chooser for Sourced<'_> {
     }
 }
 
-/// Bytes of a choice and of a part as Python objects, without their addresses.
+/// Bytes of a choice, of one of its words and of a part as Python objects, without their addresses.
 const CHOICE: usize = 512;
+const WORD: usize = 96;
 const PART: usize = 1024;
 
 struct Replay<'a> {
@@ -139,6 +140,15 @@ struct Replay<'a> {
 }
 
 impl Replay<'_> {
+    /// Adds a choice with its readable address and its words to the trace.
+    fn note(&mut self, at: &At<'_, f64>, dist: &Dist, value: &Value, log_density: f64) -> Result<(), Fault> {
+        let words = at.words();
+        let path = self.path(at, CHOICE + words.as_ref().map_or(0, |words| words.len() * WORD))?;
+        let (address, family, value) = (at.address(), dist.family().name(), value.clone());
+        self.trace.choices.push(Choice { path, address, family, value, words, log_density });
+        Ok(())
+    }
+
     /// The readable address of a choice or a part. `bytes` is the size of the choice or part without the address.
     fn path(&mut self, at: &At<'_, f64>, bytes: usize) -> Result<String, Fault> {
         let (path, budget) = (at.path(), self.task.limits.bytes);
@@ -171,15 +181,7 @@ impl Answers<f64> for Replay<'_> {
         };
         let Chosen { value, log_prior: log_density, .. } = chosen;
         self.record.choose(seen.address, &value, log_density);
-        let (path, family) = (self.path(at, CHOICE)?, dist.family().name());
-        self.trace.choices.push(Choice {
-            path,
-            address: seen.address,
-            family,
-            value: value.clone(),
-            words: at.words(),
-            log_density,
-        });
+        self.note(at, dist, &value, log_density)?;
         Ok(Answer::Go(value))
     }
 
@@ -189,15 +191,7 @@ impl Answers<f64> for Replay<'_> {
     }
 
     fn held(&mut self, at: &At<'_, f64>, dist: &Dist, value: &Value, log: f64) -> Result<Answer<()>, Fault> {
-        let path = self.path(at, CHOICE)?;
-        self.trace.choices.push(Choice {
-            path,
-            address: at.address(),
-            family: dist.family().name(),
-            value: value.clone(),
-            words: at.words(),
-            log_density: log,
-        });
+        self.note(at, dist, value, log)?;
         self.score(at, Factor::Held, log)
     }
 

@@ -96,7 +96,7 @@ fn parts(kind: &str, count: u64) -> u64 {
             "box" => Shape::cuboid(at, vec3(1.1, 1.3, 0.9), &look),
             "turned box" => {
                 let rotation = Mat3::rotation(vec3(0.6, 0.8, 0.0), 0.4);
-                let look = Look { rotation: Some(rotation), ..look };
+                let look = Look { rotation: Some(rotation), ..look.clone() };
                 Shape::cuboid(at, vec3(0.8, 0.9, 0.7), &look)
             }
             "tapered box" => Shape::tapered_box(at, vec3(1.1, 1.3, 0.9), 0.6, 1, &look),

@@ -94,11 +94,21 @@ class Drawing:
 
     @property
     def background(self) -> int | None:
-        """The region that holds most of the picture's edge; None where most of the edge has no region."""
-        edge = np.concatenate([self.labels[0], self.labels[-1], self.labels[:, 0], self.labels[:, -1]])
-        count = np.bincount(edge + 1, minlength=len(self.names) + 1)
-        most = int(count.argmax())
-        return most - 1 if most > 0 else None
+        """The region that holds most of the outermost ring of pixels with regions; None if most of it has none.
+
+        A frame, such as an ink line or a margin around the picture, has no region: then the rings inside of it are
+        looked at.
+        """
+        height, width = self.labels.shape
+        for inset in range(min(height, width) // 4):
+            rows, columns = self.labels[inset : height - inset], self.labels[:, inset : width - inset]
+            sides = rows[[0, -1], inset : width - inset], columns[inset : height - inset, [0, -1]]
+            ring = np.concatenate([side.ravel() for side in sides])
+            if (ring >= 0).any():
+                count = np.bincount(ring + 1, minlength=len(self.names) + 1)
+                most = int(count.argmax())
+                return most - 1 if most > 0 else None
+        return None
 
     def picture(self, colors: Mapping[str, str], size: int = 512) -> Image.Image:
         """Draw the picture in these colours, `#rrggbb` by region; the longer side of an SVG has `size` pixels."""

@@ -14,6 +14,7 @@ Modules:
     page.py         the numbers of an SVG
     far.py          scenes far from the origin
     parts.py        meshes of parts, by their paints
+    closed.py       closed meshes of solids with holes
     instances.py    meshes that several parts share
     glb.py          GLB: a node for each part
     hierarchy.py    the nodes above the parts: the calls of the model

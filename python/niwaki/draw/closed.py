@@ -71,13 +71,13 @@ def closed(shape: Shape, address: str) -> list[Closed]:
     for original, start, end in zip(mesh.run_original_id, runs[:-1], runs[1:], strict=True):
         if start == end:
             continue
-        leaf = numbers[int(original)]
-        used, faces = np.unique(corners[start:end], return_inverse=True)
-        normals = properties[used, 3:6] * (-1.0 if turned[leaf] else 1.0)
+        number = numbers[int(original)]
+        used, index = np.unique(corners[start:end], return_inverse=True)
+        normals = properties[used, 3:6] * (-1.0 if turned[number] else 1.0)
         lengths = np.linalg.norm(normals, axis=1, keepdims=True)
         normals = normals / np.where(lengths > 0.0, lengths, 1.0)
-        faces = faces.reshape(-1, 3).astype(np.uint32)
-        parts.append(Closed(leaf, np.ascontiguousarray(properties[used, :3]), normals, faces))
+        faces: NDArray[np.uint32] = index.reshape(-1, 3).astype(np.uint32)
+        parts.append(Closed(number, np.ascontiguousarray(properties[used, :3]), normals, faces))
     return sorted(parts, key=lambda part: part.leaf)
 
 
@@ -95,7 +95,8 @@ def _solid(tools: Any, vertices: NDArray[Any], faces: NDArray[Any], normals: NDA
         merge_from_vert=doubled.astype(np.uint64),
         merge_to_vert=kept[doubled].astype(np.uint64),
     )
-    return tools.Manifold(mesh)
+    # An original has a number, by which its faces are known in a result.
+    return tools.Manifold(mesh).as_original()
 
 
 def _combined(solids: list[Any], steps: list[str]) -> Any:

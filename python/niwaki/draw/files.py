@@ -101,7 +101,13 @@ def export(
     if suffix == ".glb":
         return write_whole(place, glb(scene, about))
     far.warn_of(scene)
-    return write_whole(place, obj(scene) if suffix == ".obj" else ply(scene))
+    if suffix == ".ply":
+        return write_whole(place, ply(scene))
+    library = place.with_name("_".join(place.stem.split()) + ".mtl")
+    data, materials = obj(scene, library.name)
+    if materials:
+        write_whole(library, materials)
+    return write_whole(place, data)
 
 
 def check_format(place: Path) -> str:

@@ -14,8 +14,7 @@ from __future__ import annotations
 
 import json
 import struct
-from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -27,7 +26,7 @@ from niwaki.draw.far import is_far
 from niwaki.draw.finite import plain
 from niwaki.draw.hierarchy import hierarchy
 from niwaki.draw.instances import Geometry, Instance, instances, quaternion
-from niwaki.draw.palette import Paint
+from niwaki.draw.palette import Paint, material_names
 from niwaki.draw.parts import part_meshes
 
 # Constants of glTF.
@@ -154,17 +153,6 @@ def _below_origin(nodes: list[dict[str, Any]], roots: list[int], scene: Assembly
         nodes[root]["translation"] = (nodes[root]["translation"] - offset).tolist()
     nodes.append({"name": "origin", "translation": offset.tolist(), "children": roots})
     return len(nodes) - 1
-
-
-def material_names(materials: Iterable[Paint]) -> list[str]:
-    """Make unique names of materials: the second "bark" becomes "bark 2"."""
-    counts: Counter[str] = Counter()
-    names = []
-    for paint in materials:
-        counts[paint.name] += 1
-        count = counts[paint.name]
-        names.append(paint.name if count == 1 else f"{paint.name} {count}")
-    return names
 
 
 def _material(paint: Paint, name: str) -> dict[str, Any]:

@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import colorsys
 import zlib
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from niwaki._engine import Shape
@@ -48,6 +49,8 @@ class Paint:
         From 0 to 1 (metal), as in glTF.
     given_roughness
         The roughness that the model sets, or None.
+    is_named
+        Whether the model names the material.
     """
 
     name: str
@@ -57,6 +60,7 @@ class Paint:
     pitch: float = 0.0
     metalness: float = 0.0
     given_roughness: float | None = None
+    is_named: bool = False
 
     @property
     def roughness(self) -> float:
@@ -70,6 +74,10 @@ class Paint:
             return replace(self, gloss=gloss, metalness=metalness or 0.0, given_roughness=roughness)
         return self if metalness is None else replace(self, metalness=metalness)
 
+    def called(self, material: str | None) -> Paint:
+        """Return the paint with the name of the material that the model sets."""
+        return self if material is None else replace(self, name=material, is_named=True)
+
 
 def paints(scene: Assembly, like: Assembly | None = None) -> list[list[Paint]]:
     """Choose the paint of each shape of each part, in order; `like`, if given, determines palette and size."""
@@ -80,7 +88,9 @@ def paints(scene: Assembly, like: Assembly | None = None) -> list[list[Paint]]:
     extent = whole.size.max() if len(whole) else 1.0
     return [
         [
-            _paint(part, shape, garden, extent).finished(shape.metalness, shape.roughness)
+            _paint(part, shape, garden, extent)
+            .finished(shape.metalness, shape.roughness)
+            .called(shape.material)
             for shape in part.shapes
         ]
         for part in scene.parts
@@ -107,6 +117,17 @@ def _paint(part: Part, shape: Shape, garden: bool, extent: float) -> Paint:
 def named(color: Color) -> str:
     """Write a colour as `#rrggbb`."""
     return "#" + "".join(f"{round(255 * min(max(part, 0.0), 1.0)):02x}" for part in color)
+
+
+def material_names(materials: Iterable[Paint]) -> list[str]:
+    """Make unique names of materials: the second "bark" becomes "bark 2"."""
+    counts: Counter[str] = Counter()
+    names = []
+    for paint in materials:
+        counts[paint.name] += 1
+        count = counts[paint.name]
+        names.append(paint.name if count == 1 else f"{paint.name} {count}")
+    return names
 
 
 def _vary(colors: tuple[Color, ...], dice: int, by: float, turn: float) -> Color:

@@ -7,6 +7,7 @@ number of threads. A scene of flat shapes becomes a drawing: see `flat`.
 from __future__ import annotations
 
 import io
+from collections.abc import Sequence
 from math import isfinite
 from os import PathLike
 from pathlib import Path
@@ -60,6 +61,8 @@ def picture(
     style: str = "ink",
     window: Window | None = None,
     under: NDArray[np.bool_] | None = None,
+    obstacles: Sequence[Volume] = (),
+    ground: float | None = None,
 ) -> Image.Image:
     """Draw a scene.
 
@@ -92,6 +95,10 @@ def picture(
         be empty.
     style, window, under
         Settings of `niwaki.draw.flat.drawing.drawing`, which draws scenes of flat shapes unless `camera` is given.
+    obstacles
+        Solids that the scene avoids, drawn as ghosts; the framing does not include them.
+    ground
+        The height of the floor, if the scene may stand above it.
 
     Returns
     -------
@@ -132,7 +139,8 @@ def picture(
             like=like,
         )
     shown = surfaces(scene, like)
-    ghost = None if target is None else _ghost(target)
+    ghosts = [*obstacles] if target is None else [target, *obstacles]
+    ghost = _ghost(ghosts) if ghosts else None
     check_rays(size, sum(part.triangles for part in (shown, ghost) if part is not None))
     if camera is None:
         camera = _engine.frame_camera(
@@ -146,6 +154,7 @@ def picture(
         )
     standing = scene if like is None else like
     low, high = standing.bounds if len(standing) else target.bounds  # type: ignore[union-attr]
+    foot = float(low[1] - lift * (high[1] - low[1]))
     pixels = _engine.render(
         shown,
         ghost,
@@ -154,7 +163,7 @@ def picture(
         height=height,
         samples=samples,
         backdrop=BACKDROPS[backdrop],
-        floor=float(low[1] - lift * (high[1] - low[1])),
+        floor=foot if ground is None else min(foot, ground),
     )
     return Image.fromarray(pixels, "RGBA")
 
@@ -218,7 +227,10 @@ def preview(scene: Assembly) -> bytes:
     return png(picture(scene, size=(800, 600)) if len(scene) else Image.new("RGBA", (1, 1)))
 
 
-def _ghost(target: Volume) -> _engine.Surfaces:
-    """Make the target's surface; its normals are smooth where it is smooth."""
-    shape = _engine.shape("mesh", target.vertices, target.faces)
+def _ghost(solids: Sequence[Volume]) -> _engine.Surfaces:
+    """Make the surface of ghosts; its normals are smooth where it is smooth."""
+    starts = np.cumsum([0, *(len(solid.vertices) for solid in solids)])
+    vertices = np.concatenate([solid.vertices for solid in solids])
+    faces = np.concatenate([solid.faces + start for solid, start in zip(solids, starts, strict=False)])
+    shape = _engine.shape("mesh", vertices, faces)
     return _engine.Surfaces([(shape, (1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 0.0))])

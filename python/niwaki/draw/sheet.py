@@ -60,7 +60,10 @@ def sheet(
     width, height = size
     check_size(size, across * down)
     letters = max(11, round(height / 22))
-    strip = round(letters * 2.2) if captions else 0
+    font = ImageFont.load_default(letters)
+    texts = [_lines(caption, font, width - letters) for caption in captions or ()]
+    rows = max(map(len, texts), default=0)
+    strip = round(letters * (0.9 + 1.3 * rows)) if rows else 0
     gap = max(2, round(height / 120))
     backdrop = settings.get("backdrop", "studio")
     colors = BACKDROPS.get(backdrop)
@@ -73,7 +76,6 @@ def sheet(
     )
     page = Image.new("RGBA", (across * (width + gap) - gap, down * (height + strip + gap) - gap), line)
     pen = ImageDraw.Draw(page)
-    font = ImageFont.load_default(letters)
     whole = _together(scenes, target)
     for k, scene in enumerate(scenes):
         x, y = (k % across) * (width + gap), (k // across) * (height + strip + gap)
@@ -82,8 +84,9 @@ def sheet(
         page.paste(image, (x, y))
         if captions:
             ink = (205, 207, 210, 255) if dark else (84, 82, 78, 255)
-            text = _fit(captions[k], font, width - letters)
-            pen.text((x + width / 2, y + height + strip * 0.42), text, ink, font, anchor="mm")
+            for row, text in enumerate(texts[k]):
+                middle = y + height + round(letters * 2.2) * 0.42 + letters * 1.3 * row
+                pen.text((x + width / 2, middle), text, ink, font, anchor="mm")
     return page
 
 
@@ -106,6 +109,15 @@ def _together(scenes: Sequence[Assembly], target: Volume | None) -> Assembly:
     if target is not None:
         parts.append(("target", [_engine.shape("mesh", target.vertices, target.faces)]))
     return Assembly(parts)
+
+
+def _lines(text: str, font: Any, width: float) -> list[str]:
+    """Break a caption that is too long into two lines; a line that is still too long is shortened."""
+    words = text.split()
+    if font.getlength(text) <= width or len(words) < 2:
+        return [_fit(text, font, width)]
+    halves = [(" ".join(words[:k]), " ".join(words[k:])) for k in range(1, len(words))]
+    return [_fit(half, font, width) for half in min(halves, key=lambda half: max(map(font.getlength, half)))]
 
 
 def _fit(text: str, font: Any, width: float) -> str:

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 from niwaki import _engine
 from niwaki.draw.assembly import Assembly
-from niwaki.draw.closed import closed, kernel
+from niwaki.draw.closed import closed
+from niwaki.draw.closed import kernel as kernel
 from niwaki.draw.far import is_far
 from niwaki.draw.finite import finite, floats
 from niwaki.draw.parts import joined

@@ -46,7 +46,7 @@ class Emitted(NamedTuple):
 
     def text(self, labels: Labels) -> str:
         """Return the part's name with its line."""
-        return f"`{self.name(labels)}` (line {self.span[0]})"
+        return f'"{self.name(labels)}" (line {self.span[0]})'
 
 
 class Blame(NamedTuple):
@@ -76,7 +76,7 @@ class Blame(NamedTuple):
         return cls(constraint, _emitted(part), None if other is None else _emitted(other), runs)
 
     def does(self, labels: Labels) -> str:
-        """Return the part's effect in words: `runs into `road` (line 21)`."""
+        """Return the part's effect in words: `runs into "road" (line 21)`."""
         if self.other is None:
             part, _ = _engine.SKETCHES.get(self.constraint) or (f"breaks {self.constraint}", "")
             return part
@@ -103,8 +103,8 @@ def marked(blame: list[Blame], looked_at: int, labels: Labels) -> list[tuple[Spa
         return []
     first = blame[0]
     places = [
-        (first.part.place, f"`{first.part.name(labels)}` {first.does(labels)} in {first.runs} of {looked_at}")
+        (first.part.place, f'"{first.part.name(labels)}" {first.does(labels)} in {first.runs} of {looked_at}')
     ]
     if first.other is not None and first.other.place != first.part.place:
-        places.append((first.other.place, f"`{first.other.name(labels)}`"))
+        places.append((first.other.place, f'"{first.other.name(labels)}"'))
     return places

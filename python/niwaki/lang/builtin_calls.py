@@ -329,20 +329,70 @@ def _may_be_words(body: Body, options: ast.expr) -> bool:
 @lowers(words.future)
 def future(body: Body, node: ast.Call) -> Expr:
     """Lower `future(f, *args)`, directly if `f` is known."""
-    if not node.args:
-        body.refuse(
-            "wrong-number-of-arguments", node, name="future", expected="at least 1 argument", found="0"
-        )
-    no_keywords(body, node, "future")
-    function, args = node.args[0], node.args[1:]
+    _at_least(body, node, "future", 1, "at least 1 argument")
+    return _directly(body, node, ("future", "future_apply"), node.args[0], node.args[1:])
+
+
+@lowers(words.place)
+def place(body: Body, node: ast.Call) -> Expr:
+    """Lower `place(frame, f, *args)`: a call with the frame beside it."""
+    _at_least(body, node, "place", 2, "a frame and a function")
+    frame = body.kept(expression(body, node.args[0]))
+    called = _directly(body, node, ("call", "apply"), node.args[1], node.args[2:])
+    return Form("place", [frame, called], body.span(node))
+
+
+@lowers(words.mirrored)
+def mirrored(body: Body, node: ast.Call) -> Expr:
+    """Lower `mirrored(axis, f, *args)`: a loop over no frame and a reflection."""
+    _at_least(body, node, "mirrored", 2, "an axis and a function")
+    reflection = body.form("reflection", [expression(body, node.args[0])], node)
+    return _in_each(body, node, "mirrored", Form("tuple", ["none", reflection]))
+
+
+@lowers(words.arrayed)
+def arrayed(body: Body, node: ast.Call) -> Expr:
+    """Lower `arrayed(frames, f, *args)`: a loop over the frames."""
+    _at_least(body, node, "arrayed", 2, "a list of frames and a function")
+    return _in_each(body, node, "arrayed", iterable(body, node.args[0]))
+
+
+def _in_each(body: Body, node: ast.Call, word: str, frames: Expr) -> Expr:
+    """Call a function in each frame; its arguments are computed once."""
+    frames = body.kept(frames)
+    call = caller(body, node.args[1])
+    args = [body.kept(value) for value in expressions(body, node.args[2:])]
+
+    def use(variable: str) -> Sequence[Expr]:
+        called = call(args, node)
+        if not isinstance(called, Form) or called.head not in ("call", "apply"):
+            return [called]  # A word that computes emits nothing.
+        return [Form("place", [variable, called], body.span(node))]
+
+    return comprehensions.mapped(body, frames, word, node, use)
+
+
+def _at_least(body: Body, node: ast.Call, name: str, count: int, expected: str) -> None:
+    """Refuse keywords, and a call with too few arguments."""
+    if len(node.args) < count:
+        found = str(len(node.args))
+        body.refuse("wrong-number-of-arguments", node, name=name, expected=expected, found=found)
+    no_keywords(body, node, name)
+
+
+def _directly(
+    body: Body, node: ast.Call, heads: tuple[str, str], function: ast.expr, args: Sequence[ast.expr]
+) -> Expr:
+    """Lower the call of a function argument, by the first head if the function is known, else as a value."""
+    known, value_head = heads
     if isinstance(function, ast.Lambda):
         keep_defaults(body, body.scopes.of[function])
-        return nested(body, node, body.scopes.of[function], "future", args, [])
+        return nested(body, node, body.scopes.of[function], known, args, [])
     if isinstance(function, ast.Name):
         meaning = body.scopes.find(function.id, body.scope)
         if isinstance(meaning, Scope):
-            return nested(body, node, meaning, "future", args, [])
+            return nested(body, node, meaning, known, args, [])
     value = underlying(static(body, function))
     if isinstance(value, FunctionType) and value not in vocabulary.ALL_WORDS:
-        return user_function(body, node, value, "future", args, [])
-    return applied(body, node, "future_apply", function, args)
+        return user_function(body, node, value, known, args, [])
+    return applied(body, node, value_head, function, args)

@@ -12,6 +12,8 @@ from functools import partial
 from types import ModuleType
 from typing import Any, TypeVar
 
+import numpy as np
+
 from niwaki.lang import vocabulary
 from niwaki.lang.body import Block, Body, stable
 from niwaki.lang.core import Expr, Form, literal
@@ -20,6 +22,8 @@ from niwaki.lang.refuse import refuse
 from niwaki.lang.scope import Scope, Variable
 
 Node = TypeVar("Node", bound=ast.AST)
+#: The arrays of a mesh, of this package or of another.
+ARRAYS = ("vertices", "faces")
 TABLE: dict[type[ast.AST], Callable[[Body, Any], Expr]] = {}
 
 
@@ -327,20 +331,29 @@ def attribute(body: Body, node: ast.Attribute) -> Expr:
 
 
 def static(body: Body, node: ast.expr) -> Any:
-    """Return the object of `module.name`, or MISSING if only the run knows the value."""
+    """Return the object of `module.name` or an array of a mesh, or MISSING if only the run knows the value."""
     if isinstance(node, ast.Name):
         return resolve(body, node) if body.scopes.find(node.id, body.scope) is None else MISSING
     if not isinstance(node, ast.Attribute):
         return MISSING
     owner = static(body, node.value)
     if not isinstance(owner, ModuleType):
-        return MISSING
+        return array_of_mesh(owner, node.attr)
     try:
         return getattr(owner, node.attr)
     except AttributeError:
         close = nearest(node.attr, dir(owner))
         hint = f"did you mean `{close[0]}`?" if close else f"`{owner.__name__}` has no such name"
         body.refuse("unknown-name", node, name=f"{owner.__name__}.{node.attr}", suggestion=hint)
+
+
+def array_of_mesh(owner: Any, name: str) -> Any:
+    """Return the vertices or the faces of a mesh of the module, which models cannot have whole; else MISSING."""
+    if name not in ARRAYS or is_record_class(type(owner)):
+        return MISSING
+    arrays = {key: getattr(owner, key, None) for key in ARRAYS}
+    is_mesh = all(isinstance(array, np.ndarray) and array.ndim == 2 for array in arrays.values())
+    return np.asarray(arrays[name]) if is_mesh else MISSING
 
 
 @lowers(ast.JoinedStr)

@@ -19,7 +19,18 @@ _LOOKS = """bool eq ne lt le gt ge hash len iter next contains getitem call str 
 round trunc floor ceil abs neg pos invert reversed divmod rdivmod array"""
 _OPERATORS = "add sub mul matmul truediv floordiv mod pow and or xor lshift rshift"
 #: Functions that take futures without using their values.
-_PASSING = frozenset({words.force, words.future, words.query, words.choose, words.mem})
+_PASSING = frozenset(
+    {
+        words.arrayed,
+        words.choose,
+        words.force,
+        words.future,
+        words.mem,
+        words.mirrored,
+        words.place,
+        words.query,
+    }
+)
 
 
 class NotForced(Exception):

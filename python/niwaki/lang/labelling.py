@@ -88,31 +88,31 @@ class _Maker:
         assert loop.inside is not None
         name = loop.component.partition("[")[0] if not loop.purpose.name else loop.purpose.name
         entries = [entry for entry in self.sites.entries[loop.inside] if self.is_visible(entry)]
-        made = [entry for entry in entries if entry.kind in ("part", "call")]
+        products = [entry for entry in entries if entry.kind in ("part", "call")]
         if not is_anonymous(name):
             text = spoken(name)
-            if len(made) == 1 and singular(self.text(made[0])) == singular(text):
-                loop.joins[made[0].component] = text
+            if len(products) == 1 and singular(self.text(products[0])) == singular(text):
+                loop.joins[products[0].component] = text
             return text
-        single = entries if len(entries) == 1 else made if len(made) == 1 else []
+        single = entries if len(entries) == 1 else products if len(products) == 1 else []
         if single and single[0].kind != "loop" and not any(entry.kind == "loop" for entry in entries):
             text = singular(self.text(single[0]))
             if not text.endswith("?") and not self._clash(single[0], entries):
                 loop.joins[single[0].component] = text
                 return text
-        names = Counter(singular(self.text(entry)) for entry in made)
-        for entry in made:
+        names = Counter(singular(self.text(entry)) for entry in products)
+        for entry in products:
             if entry.kind == "call" and names[singular(self.text(entry))] == 1:
                 loop.joins[entry.component] = singular(self.text(entry))
-        return "section" if any(entry.kind == "part" for entry in made) else "step"
+        return "section" if any(entry.kind == "part" for entry in products) else "step"
 
     def _clash(self, call: Entry, entries: Sequence[Entry]) -> bool:
         """Return whether an iteration and the call in it have a label in common, or could have."""
-        others = {self.text(entry) for entry in entries if entry is not call}
-        if call.kind != "call" or not others:
+        own_labels = {self.text(entry) for entry in entries if entry is not call}
+        if call.kind != "call" or not own_labels:
             return False
         inner = None if call.inside is None else self.sites.entries[call.inside]
-        return inner is None or any(self.text(entry) in others for entry in inner)
+        return inner is None or any(self.text(entry) in own_labels for entry in inner)
 
     def _choice(self, entry: Entry) -> str:
         assert entry.reader is not None
@@ -123,27 +123,29 @@ class _Maker:
             case "if":
                 return self._decided(entry.reader, purpose)
             case "while":
-                made = self.made(entry.reader, purpose, purpose.nodes)
-                return f"another {singular(made[0])}?" if made else "go on?"
+                products = self.products(entry.reader, purpose, purpose.nodes)
+                return f"another {singular(products[0])}?" if products else "go on?"
             case "count":
-                made = [plural(singular(text)) for text in self.made(entry.reader, purpose, purpose.nodes)]
-                if not made and purpose.loop is not None:
-                    made = [plural(self.text(purpose.loop))]
-                return f"number of {_both(made)}"
+                products = [
+                    plural(singular(text)) for text in self.products(entry.reader, purpose, purpose.nodes)
+                ]
+                if not products and purpose.loop is not None:
+                    products = [plural(self.text(purpose.loop))]
+                return f"number of {_both(products)}"
         assert isinstance(entry.node, ast.Call)
         return entry.reader.word(entry.node)
 
     def _decided(self, reader: Reader, purpose: Purpose) -> str:
         """Return the question that a choice in a condition answers."""
-        several = self.made(reader, purpose, purpose.nodes)
+        several = self.products(reader, purpose, purpose.nodes)
         function = "" if purpose.scope is None else spoken(purpose.scope.function.name)
         if len(several) > 1 and purpose.is_whole:
             several = [function]
         if several:
             return f"{'no ' if purpose.is_negated else ''}{_both(several)}?"
-        made = _both(self.made(reader, purpose, purpose.others))
-        if made:
-            return f"{'' if purpose.is_negated else 'no '}{made}?"
+        products = _both(self.products(reader, purpose, purpose.alternative))
+        if products:
+            return f"{'' if purpose.is_negated else 'no '}{products}?"
         last = purpose.nodes[-1] if purpose.nodes else None
         if isinstance(last, (ast.Return, ast.Break)):
             is_model = purpose.scope is None or self.sites.scopes[purpose.scope.function] == 0
@@ -155,7 +157,7 @@ class _Maker:
         changed = [part.id for node in purpose.nodes for part in ast.walk(node) if is_stored(part)]
         return f"{spoken(changed[0])}?" if changed else "yes?"
 
-    def made(self, reader: Reader, purpose: Purpose, nodes: Sequence[ast.AST]) -> list[str]:
+    def products(self, reader: Reader, purpose: Purpose, nodes: Sequence[ast.AST]) -> list[str]:
         """Return labels of what statements make, without repeats: parts and calls, else shapes and helpers."""
         first: list[str] = []
         second: list[str] = []
@@ -199,7 +201,7 @@ def _places(entries: Sequence[Entry]) -> list[int]:
 
 def _number(entries: Sequence[Entry]) -> None:
     """Number the equal labels of an activation."""
-    taken = {entry.text for entry in entries}
+    labels = {entry.text for entry in entries}
     numbered: set[str] = set()
     for text in dict.fromkeys(entry.text for entry in entries if entry.kind != "loop"):
         equal = [entry for entry in entries if entry.kind != "loop" and entry.text == text]
@@ -208,7 +210,7 @@ def _number(entries: Sequence[Entry]) -> None:
             continue
         numbered.add(text)
         for entry, place in zip(equal, places, strict=True):
-            while (name := _with_number(text, place)) in taken:
+            while (name := _with_number(text, place)) in labels:
                 place += len(equal)
             entry.text = name
     loops = [entry for entry in entries if entry.kind == "loop"]

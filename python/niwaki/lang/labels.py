@@ -17,7 +17,7 @@ An address of a function that only the run knows, or of a program without a sour
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from niwaki.lang.nouns import singular, words
@@ -60,6 +60,25 @@ class Site:
     joins: Mapping[str, str] = field(default_factory=dict)
 
 
+@dataclass(frozen=True)
+class _Place:
+    """A place in an address: the activation, and the loop with the number of the iteration right before it."""
+
+    inside: int
+    loop: Site | None = None
+    number: int = 0
+
+
+@dataclass(frozen=True)
+class _Step:
+    """The label of a component, with the number of its iteration; the place after it."""
+
+    text: str
+    number: int | None
+    place: _Place
+    is_joined: bool = False
+
+
 #: The sites of an activation by kind ("end", "call", "loop") and component; a loop's has empty brackets.
 Table = Mapping[tuple[str, str], Site]
 
@@ -89,12 +108,36 @@ class Labels:
 
     def steps(self, address: str) -> list[str]:
         """Return the steps of a label, outermost first."""
-        return [text if number is None else f"{text} {number}" for text, number in self._steps(address)]
+        return [
+            step.text if step.number is None else f"{step.text} {step.number}"
+            for step in self._steps(address)
+        ]
 
     def kind(self, address: str) -> str:
         """Return the last step without the number of an iteration: the same for all parts of a loop."""
-        *_, (text, _) = self._steps(address)
-        return text
+        return self._steps(address)[-1].text
+
+    def tree(self, addresses: Iterable[str]) -> list[tuple[int, str, str, bool]]:
+        """Return the steps of addresses and of the calls around them, each once, those around before those inside.
+
+        A row has the number of the row around it (-1 for the outermost), the component of addresses, the step, and
+        whether the step takes the place of the one around it in a whole label.
+        """
+        rows: list[tuple[int, str, str, bool]] = []
+        numbers, places = {"": -1}, {-1: self._start()}
+        for whole in addresses:
+            address, waiting = whole, []
+            while address not in numbers:
+                waiting.append(address)
+                address = address.rpartition("/")[0]
+            for address in reversed(waiting):
+                head, _, component = address.rpartition("/")
+                step = self._step(places[numbers[head]], component, address is whole)
+                text = step.text if step.number is None else f"{step.text} {step.number}"
+                rows.append((numbers[head], component, text, step.is_joined))
+                numbers[address] = len(rows) - 1
+                places[numbers[address]] = step.place
+        return rows
 
     def site(self, function: str, component: str) -> str:
         """Return the label of a choice by its function, with the loops around it (`wings/while#0`), in all its runs."""
@@ -109,39 +152,44 @@ class Labels:
             if known is not None and component in known.joins:
                 return _path([*steps, known.text])
             steps.append(known.text if known is not None else "step" if is_anonymous(of) else words(of))
-        found = self._found(inside, component, True)
-        return _path([*steps, found.text if found is not None else _plain(component)])
+        site_here = self._site_of(inside, component, True)
+        return _path([*steps, site_here.text if site_here is not None else _plain(component)])
 
-    def _steps(self, address: str) -> Iterator[tuple[str, int | None]]:
-        """Yield the steps, each with the number of its iteration."""
+    def _start(self) -> _Place:
+        return _Place(0 if self.tables else UNKNOWN)
+
+    def _steps(self, address: str) -> list[_Step]:
+        """Return the steps, of which one that is joined replaces the one before it."""
+        steps: list[_Step] = []
+        place = self._start()
         components = address.split("/")
-        inside = 0 if self.tables else UNKNOWN
-        at = 0
-        while at < len(components):
-            component, is_last = components[at], at + 1 == len(components)
-            at += 1
-            if (loop := _LOOP.fullmatch(component)) is not None:
-                site = self._loop(inside, loop)
-                inside, number = site.inside, int(loop[2]) + 1
-                if is_last or (joined := self._joined(site, inside, components, at)) is None:
-                    yield site.text, number
-                    continue
-                yield joined, number
-                if (after := self._found(inside, components[at], at + 1 == len(components))) is not None:
-                    inside = after.inside
-                else:
-                    inside = self._function(components[at])
-                at += 1
-                continue
-            if (memo := _MEMO.fullmatch(component)) is not None:
-                yield f"{words(memo[1].rpartition('.')[2])} {_argument(memo[2])}", None
-                inside = self._function(memo[1])
-                continue
-            found = self._found(inside, component, is_last)
-            yield found.text if found is not None else _plain(component), None
-            inside = found.inside if found is not None else self._function(component)
+        for number, component in enumerate(components, 1):
+            step = self._step(place, component, number == len(components))
+            place = step.place
+            if step.is_joined:
+                steps.pop()
+            steps.append(step)
+        return steps
 
-    def _found(self, inside: int, component: str, is_last: bool) -> Site | None:
+    def _step(self, place: _Place, component: str, is_last: bool) -> _Step:
+        """Return the step of a component that comes after a place."""
+        inside = place.inside
+        if (loop := _LOOP.fullmatch(component)) is not None:
+            site, number = self._loop(inside, loop), int(loop[2]) + 1
+            return _Step(site.text, number, _Place(site.inside, site, number))
+        if (memo := _MEMO.fullmatch(component)) is not None:
+            text = f"{words(memo[1].rpartition('.')[2])} {_argument(memo[2])}"
+            return _Step(text, None, _Place(self._function(memo[1])))
+        after = self._site_of(inside, component, False)
+        next_place = _Place(after.inside if after is not None else self._function(component))
+        if place.loop is not None:
+            joined = self._joined(place.loop, inside, component, is_last)
+            if joined is not None:
+                return _Step(joined, place.number, next_place, True)
+        site_here = self._site_of(inside, component, is_last)
+        return _Step(site_here.text if site_here is not None else _plain(component), None, next_place)
+
+    def _site_of(self, inside: int, component: str, is_last: bool) -> Site | None:
         if inside == UNKNOWN:
             return None
         table = self.tables[inside]
@@ -154,13 +202,11 @@ class Labels:
             return self.tables[inside][key]
         return Site("step" if is_anonymous(loop[1]) else words(loop[1]))
 
-    def _joined(self, site: Site, inside: int, components: list[str], at: int) -> str | None:
+    def _joined(self, loop: Site, inside: int, component: str, is_last: bool) -> str | None:
         """Return the label of an iteration together with the component after it, or None if each has its own."""
-        after = components[at]
         if inside != UNKNOWN:
-            return site.joins.get(after)
-        is_call = at + 1 < len(components) and _LOOP.fullmatch(after) is None and "(" not in after
-        return singular(_plain(after)) if is_call and site.text == "step" else None
+            return loop.joins.get(component)
+        return singular(_plain(component)) if not is_last and loop.text == "step" else None
 
     def _function(self, component: str) -> int:
         return self.functions.get(component.partition("#")[0].rpartition(".")[2], UNKNOWN)

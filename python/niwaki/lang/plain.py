@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from types import FrameType, FunctionType
 from typing import Any
 
-from niwaki import _engine
+from niwaki import _engine, words
 from niwaki.errors import Call, InputError, ModelFault, NiwakiError
 from niwaki.errors.kinds import place
 from niwaki.lang import densities, futures, inference, inner, memoised, vocabulary
@@ -149,6 +149,7 @@ class PlainRun:
         self.functions: dict[FunctionType, FunctionType] = {}
         self.codes: set[Any] = set()
         self.calls = memoised.Calls()
+        self.frame: Any = None
 
     # methods for the instrumented code
 
@@ -198,8 +199,13 @@ class PlainRun:
     def with_function(
         self, label: tuple[str, str], word: Any, args: Sequence[Any], kwargs: dict[str, Any]
     ) -> Any:
-        """Run `map`, `filter`, `sorted`, `min` or `max`, which call their function once for each item, in order."""
+        """Run a word or a built-in that calls its function once for each item, in order."""
         loop, callee = label
+        if word in (words.mirrored, words.arrayed):
+            frames, function, *rest = args
+            if word is words.mirrored:
+                frames = (None, _engine.operation("reflection", frames))
+            return [self.placed(frame, callee, function, rest) for frame in self.loop(loop, frames)]
         if word in (map, filter):
             function, *lists = args
             if function is None:
@@ -218,6 +224,13 @@ class PlainRun:
             range(len(items)), key=keys.__getitem__, **{k: v for k, v in kwargs.items() if k != "default"}
         )
         return [items[place] for place in order] if word is sorted else items[order]
+
+    def placed(self, frame: Any, label: str, function: Any, args: Sequence[Any]) -> Any:
+        """Run a call in a frame, inside of the current frame."""
+        outer, self.frame = self.frame, _engine.operation("frame_in", self.frame, frame)
+        value = self.call(label, function, *args)
+        self.frame = outer
+        return value
 
     def loop(self, label: str, items: Iterable[Any]) -> Iterator[Any]:
         """Yield the items of a loop, each with its iteration in the path."""
@@ -350,7 +363,10 @@ class PlainRun:
 
     def emit(self, shapes: Sequence[Any]) -> None:
         """Add shapes to the scene."""
-        self.scene.append((self.address("emit"), flatten(shapes)))
+        flat = flatten(shapes)
+        if self.frame is not None:
+            flat = list(_engine.operation("placed", self.frame, tuple(flat)))
+        self.scene.append((self.address("emit"), flat))
 
     def future(self, function: Callable[..., Any], args: Sequence[Any]) -> Any:
         """Run a call now, and return its value as a future."""
@@ -367,6 +383,19 @@ class PlainRun:
             value = function(*args)
         del self.path[depth:], self.loops[loops:]
         return futures.Future(value)
+
+    def place(self, frame: Any, function: Callable[..., Any], args: Sequence[Any]) -> Any:
+        """Run a call in a frame."""
+        label, self.pending = self.pending or "apply", ""
+        return self.placed(frame, label, function, args)
+
+    def mirrored(self, axis: Any, function: Callable[..., Any], args: Sequence[Any]) -> Any:
+        """Run `mirrored` where it is not called by its name."""
+        return self.with_function(("mirrored[]", "apply"), words.mirrored, (axis, function, *args), {})
+
+    def arrayed(self, frames: Any, function: Callable[..., Any], args: Sequence[Any]) -> Any:
+        """Run `arrayed` where it is not called by its name."""
+        return self.with_function(("arrayed[]", "apply"), words.arrayed, (frames, function, *args), {})
 
     def force(self, value: Any) -> Any:
         """Return the value of a future."""
@@ -392,10 +421,10 @@ class PlainRun:
             raise ModelFault(fault.code, fault.message, stack=self.stack()) from None
         if address not in self.calls.values:
             self.calls.values[address] = memoised.RUNNING
-            outer = self.path, self.loops, self.pending
-            self.path, self.loops = [address], []
+            outer = self.path, self.loops, self.pending, self.frame
+            self.path, self.loops, self.frame = [address], [], None
             value = self.enter(underlying(function.function), args, kwargs)
-            self.path, self.loops, self.pending = outer
+            self.path, self.loops, self.pending, self.frame = outer
             self.calls.values[address] = value
         if self.calls.values[address] is memoised.RUNNING:
             message = f"the memoised call `{address}` needs its own value"

@@ -41,12 +41,12 @@ LEAVES = (ast.Return, ast.Break, ast.Continue)
 
 @dataclass(frozen=True)
 class Purpose:
-    """What a value is for: the name of a variable or parameter, or what it decides."""
+    """The use of a value: the name of a variable or parameter, or what it decides."""
 
     name: str = ""
     form: Literal["", "if", "while", "count"] = ""
     nodes: Sequence[ast.AST] = ()
-    others: Sequence[ast.AST] = ()
+    alternative: Sequence[ast.AST] = ()
     loop: Entry | None = None
     is_negated: bool = False
     #: The function with the decision, and whether the decision is all that it does.
@@ -54,7 +54,7 @@ class Purpose:
     is_whole: bool = False
 
 
-NOTHING = Purpose()
+UNUSED = Purpose()
 
 
 @dataclass(eq=False)
@@ -66,7 +66,7 @@ class Entry:
     node: ast.AST
     arms: Arms
     text: str = ""
-    purpose: Purpose = NOTHING
+    purpose: Purpose = UNUSED
     reader: Reader | None = None
     inside: int | None = None
     joins: dict[str, str] = field(default_factory=dict)
@@ -140,7 +140,7 @@ class Reader:
                         self.arms = (*self.arms, (statement, 1 - side))
         self.arms = outer
 
-    def side(self, node: ast.AST, number: int, parts: Sequence[ast.AST], purpose: Purpose = NOTHING) -> None:
+    def side(self, node: ast.AST, number: int, parts: Sequence[ast.AST], purpose: Purpose = UNUSED) -> None:
         """Read a side of an `if`."""
         outer, self.arms = self.arms, (*self.arms, (node, number))
         if isinstance(node, ast.If):
@@ -164,7 +164,7 @@ class Reader:
         self.here, self.arms = loop.inside, ()
         return outer
 
-    def visit(self, node: ast.AST, purpose: Purpose = NOTHING) -> None:
+    def visit(self, node: ast.AST, purpose: Purpose = UNUSED) -> None:
         """Read a statement or an expression with what its value is for."""
         components = self.unit.components
         match node:
@@ -200,7 +200,7 @@ class Reader:
                 for number, value in enumerate(node.values):
                     rest = self.decision("if", node.values[number + 1 :])
                     is_last = number + 1 == len(node.values)
-                    self.visit(value, purpose if is_last or purpose != NOTHING else rest)
+                    self.visit(value, purpose if is_last or purpose != UNUSED else rest)
             case ast.UnaryOp(op=ast.Not()):
                 self.visit(node.operand, replace(purpose, is_negated=not purpose.is_negated))
             case ast.Dict():
@@ -210,8 +210,8 @@ class Reader:
             case ast.Subscript():
                 name = node.value.id if isinstance(node.value, ast.Name) else ""
                 self.visit(node.value, purpose)
-                of = Purpose(singular(spoken(name.lower()))) if name else NOTHING
-                self.visit(node.slice, of if purpose == NOTHING else purpose)
+                of = Purpose(singular(spoken(name.lower()))) if name else UNUSED
+                self.visit(node.slice, of if purpose == UNUSED else purpose)
             case ast.ListComp() | ast.GeneratorExp() | ast.SetComp():
                 self.generators(node, 0, self.scope, purpose)
             case ast.FunctionDef() | ast.Lambda():
@@ -221,18 +221,18 @@ class Reader:
                 self.call(node, purpose)
             case _:
                 for child in ast.iter_child_nodes(node):
-                    self.visit(child, purpose if isinstance(node, ast.expr) else NOTHING)
+                    self.visit(child, purpose if isinstance(node, ast.expr) else UNUSED)
 
     def decision(
         self,
         form: Literal["if", "while", "count"],
         nodes: Sequence[ast.AST],
-        others: Sequence[ast.AST] = (),
+        alternative: Sequence[ast.AST] = (),
         loop: Entry | None = None,
         is_whole: bool = False,
     ) -> Purpose:
         """Return the purpose of a condition, or of the items of a loop."""
-        return Purpose("", form, nodes, others, loop, scope=self.scope, is_whole=is_whole)
+        return Purpose("", form, nodes, alternative, loop, scope=self.scope, is_whole=is_whole)
 
     def is_whole(self, node: ast.If) -> bool:
         """Return whether an `if` without another side is all that its function does."""
@@ -323,11 +323,11 @@ class Reader:
         if value is words.query and isinstance(node, ast.Constant):
             return
         if not name:
-            self.visit(node, NOTHING if value is words.emit else purpose)
+            self.visit(node, UNUSED if value is words.emit else purpose)
         elif value is words.vec:
             self.visit(node, Purpose(f"{purpose.name} {name}" if purpose.name else name))
         elif value in vocabulary.WORDS and value not in SHAPES:
-            self.visit(node, Purpose(spoken(name)) if purpose == NOTHING else purpose)
+            self.visit(node, Purpose(spoken(name)) if purpose == UNUSED else purpose)
         elif value in SHAPES and isinstance(node, (ast.Tuple, ast.List)) and len(node.elts) <= len(AXES):
             places = COLORS if name == "color" else AXES
             for place, element in zip(places, node.elts, strict=False):
@@ -343,11 +343,11 @@ class Reader:
         return self._parameters(node.func, value)
 
     def _parameters(self, node: ast.expr, value: Any) -> Sequence[str]:
-        found = self.unit.scopes.find(node.id, self.scope) if isinstance(node, ast.Name) else None
+        meaning_here = self.unit.scopes.find(node.id, self.scope) if isinstance(node, ast.Name) else None
         if isinstance(node, ast.Lambda):
-            found = self.unit.scopes.of.get(node)
-        if isinstance(found, Scope):
-            return found.parameters
+            meaning_here = self.unit.scopes.of.get(node)
+        if isinstance(meaning_here, Scope):
+            return meaning_here.parameters
         if isinstance(value, Memoised):
             value = underlying(value.function)
         if isinstance(value, type) and is_record_class(value):
@@ -365,13 +365,13 @@ class Reader:
         """Return the activation of a callee; None for a function that only the run knows."""
         if node is None:
             return None
-        found: Any = self.unit.scopes.find(node.id, self.scope) if isinstance(node, ast.Name) else None
+        meaning_here: Any = self.unit.scopes.find(node.id, self.scope) if isinstance(node, ast.Name) else None
         if isinstance(node, ast.Lambda):
-            found = self.unit.scopes.of.get(node)
+            meaning_here = self.unit.scopes.of.get(node)
         value = self.value(node)
         if isinstance(value, FunctionType) and value in self.all.program.units:
-            found = self.all.program.units[value].scopes.root
-        return self.all.scopes.get(found) if isinstance(found, Scope) else None
+            meaning_here = self.all.program.units[value].scopes.root
+        return self.all.scopes.get(meaning_here) if isinstance(meaning_here, Scope) else None
 
     def value(self, node: ast.expr, scope: Scope | None = None) -> Any:
         """Return the object of a name from outside of the model, or MISSING."""

@@ -1,9 +1,10 @@
 """Names of sites: the components that choices, calls and loops add to readable addresses.
 
-    ship/      a call of a function, a call of a value, a future: the callee's short name (the part after the last
-               dot; `lambda`), the name of a called variable, or `apply` for any other called value
+    ship/      a call of a function, a call of a value, a future, a `place`: the callee's short name (the part after the
+               last dot; `lambda`), the name of a called variable, or `apply` for any other called value
     i[3]/      an iteration of `for i in ...` (the first name of a pattern), also in a comprehension; `while[3]`;
-               `map[3]`, `filter[3]`, `sorted[3]`, `min[3]`, `max[3]` if these call a function
+               `map[3]`, `filter[3]`, `sorted[3]`, `min[3]`, `max[3]` if these call a function;
+               `mirrored[1]`, `arrayed[3]`
     zc         a choice: the first name of the assignment around it, else the distribution's family
     layout     the seed of an `infer`: the first name of the assignment around it, else `infer`
     color(3)   a call of a memoised function, from the root: the address of the `mem`, which is named like a choice,
@@ -39,7 +40,15 @@ from niwaki.lang.scope import Scope, Scopes, Variable, default_expressions
 #: Words beside those that draw from a family whose calls can have a label.
 LABELLED = (words.sample, words.choose, words.emit, words.future, words.infer)
 
-CALLS_A_FUNCTION = {map: "map", filter: "filter", sorted: "sorted", min: "min", max: "max"}
+CALLS_A_FUNCTION = {
+    map: "map",
+    filter: "filter",
+    sorted: "sorted",
+    min: "min",
+    max: "max",
+    words.mirrored: "mirrored",
+    words.arrayed: "arrayed",
+}
 
 
 def components_of(scopes: Scopes, namespace: Namespace, file: SourceFile) -> dict[Any, str]:
@@ -145,10 +154,14 @@ class _Namer:
             self.count(node, "memo", self.target or "mem")
         elif value is words.future:
             self.count(node, "call", self.callee(node.args[0]) if node.args else "apply")
+        elif value is words.place:
+            self.count(node, "call", self.callee(node.args[1]) if len(node.args) > 1 else "apply")
         elif value in CALLS_A_FUNCTION:
             self.count((node, "loop"), "loop", f"{CALLS_A_FUNCTION[value]}[]")
             key = next((keyword.value for keyword in node.keywords if keyword.arg == "key"), None)
-            function = key if key is not None else (node.args[0] if node.args else None)
+            # The function is the first argument; behind a frame, the second.
+            at = 1 if value in (words.mirrored, words.arrayed) else 0
+            function = key if key is not None else (node.args[at] if len(node.args) > at else None)
             self.components[(node, "call")] = self.callee(function) if function is not None else "apply"
         elif self.is_site(node.func, value):
             self.count(node, "call", self.callee(node.func))

@@ -12,7 +12,7 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-from niwaki import words
+from niwaki import _engine, words
 from niwaki.lang.core import is_literal
 from niwaki.words.distributions import FAMILIES, Distribution
 from niwaki.words.measures import LOOKS
@@ -105,7 +105,7 @@ _VECTORS = (
     words.rotate,
     words.rotation,
 )
-_COLORS = (words.hsv, words.lab, words.to_hsv, words.to_lab, words.color_difference)
+_COLORS = (words.rgb, words.hsv, words.lab, words.to_hsv, words.to_lab, words.color_difference)
 _POLYGONS = (
     words.polygon_area,
     words.polygon_contains,
@@ -113,7 +113,7 @@ _POLYGONS = (
     words.polygon_disc_area,
     words.polygon_inset,
 )
-NUMBERS = (words.clip, words.lerp, words.sign)
+NUMBERS = (words.clip, words.lerp, words.linspace, words.sign, words.smoothstep)
 _SOFT = (
     words.softeq,
     words.soft_at_least,
@@ -165,7 +165,20 @@ DRAWS: dict[Any, type[Distribution]] = {
 }
 
 ALL_WORDS: frozenset[Any] = frozenset(
-    {*WORDS, *EFFECTS, *DRAWS, *FAMILIES, words.choose, words.future, words.infer, words.look, words.mem}
+    {
+        *WORDS,
+        *EFFECTS,
+        *DRAWS,
+        *FAMILIES,
+        words.arrayed,
+        words.choose,
+        words.future,
+        words.infer,
+        words.look,
+        words.mem,
+        words.mirrored,
+        words.place,
+    }
 )
 
 METHODS: dict[str, tuple[int, int]] = {
@@ -253,17 +266,30 @@ FORBIDDEN_BUILTINS: frozenset[Any] = frozenset(
 )
 
 
+#: What arguments of shapes are, by type, beside points.
+_SHAPE_ARGUMENTS = {
+    "Pairs": "a list of pairs of numbers, such as `[(0, 0), (1, 0), (0, 1)]`",
+    "Points": "a list of points of three numbers, such as `[(0, 0, 0), (0, 1, 0)]`",
+}
+
+
 def shape_help(message: str) -> str | None:
-    """Return help about a shape's point, size or colour, if the message says that the value is not a vector."""
-    match = re.match(r"`(\w+)` of `(\w+)` takes (a vector|vectors)\b", message)
-    if match is None or match[2] not in {word.__name__ for word in SHAPES}:
+    """Return help about a cut of which nothing is left, or about a point, size or colour that is not a vector."""
+    if message == "nothing is left of the solid":
+        return (
+            "in `a - b` some of `a` must be outside of `b`; in `a & b` the two must overlap, not only touch"
+        )
+    match = re.match(r"`(\w+)` of `(\w+)` takes (a vector|vectors|a list of points)\b", message)
+    if match is None or match[2] not in {"emit", *(word.__name__ for word in SHAPES)}:
         return None
     if match[1] == "color":
         return (
-            "a color is a tuple of red, green and blue from 0 to 1, such as `(1, 0, 0)`; "
-            "`hsv` and `lab` make such colors"
+            "a color is a tuple of red, green and blue from 0 to 1, such as `(1, 0, 0)`, or a name such as "
+            '`"tomato"` or `"#c83c1e"`; `hsv` and `lab` make such colors'
         )
-    return f"`{match[1]}` of `{match[2]}` is a tuple of three numbers, such as `(0, 1, 0)`"
+    kind = next(row[1] for row in _engine.SHAPES[match[2]][1] if row[0] == match[1])
+    what = _SHAPE_ARGUMENTS.get(kind, "a tuple of three numbers, such as `(0, 1, 0)`")
+    return f"`{match[1]}` of `{match[2]}` is {what}"
 
 
 def plain_default(value: Any) -> bool:

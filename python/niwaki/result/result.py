@@ -396,6 +396,8 @@ class Result(Sequence[Sample]):
             settings = {"window": self.score.window, **settings}
         elif self.score.target is None and self.score.views:
             settings = {**_settings_of_view(self.score.views[0]), **settings}
+        if self.score.window is None:
+            settings = {**self.score.surroundings, **settings}
         return draw.sheet.sheet(scenes, captions, self.score.target, **settings)
 
     def _repr_png_(self) -> bytes | None:

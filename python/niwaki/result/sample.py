@@ -321,9 +321,10 @@ class Sample:
         return self.scene.save(path, self._ghost(target), **self._shown(settings))
 
     def _shown(self, settings: dict[str, Any]) -> dict[str, Any]:
-        """Settings of a picture; of a drawing, with the page of the score."""
+        """Settings of a picture with what is around the scene; of a drawing, with the page of the score."""
         window = self.search.score.window
-        return settings if window is None else {"window": window, **settings}
+        around = self.search.score.surroundings if window is None else {"window": window}
+        return {**around, **settings}
 
     def _ghost(self, target: Target | None | bool) -> Target | None:
         if isinstance(target, bool):

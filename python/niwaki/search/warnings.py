@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from niwaki import _engine
 from niwaki.draw.scene import Scene
@@ -65,6 +66,19 @@ def _grows_choices(leaf: Kernel | None) -> bool:
     return leaf is not None and leaf.settings.get("pick") == "choice"
 
 
+def times_as_large(length: float, goal: float) -> float | None:
+    """Return how many times as large the larger of two lengths is; None if both can be of the same unit."""
+    if goal / SIZES <= length <= goal * SIZES:
+        return None
+    return max(length / goal, goal / length)
+
+
+def gap(first: NDArray[np.float64], second: NDArray[np.float64]) -> float:
+    """Return the distance between two boxes, each given by its low and its high corner."""
+    between = np.maximum(np.maximum(first[0] - second[1], second[0] - first[1]), 0.0)
+    return float(np.linalg.norm(between))
+
+
 def _gain(task: _engine.Task, best: Sample) -> str:
     gain = task.gain(best._run)
     if gain > 0.0 or (gain == 0.0 and best.primitives):
@@ -78,11 +92,10 @@ def _gain(task: _engine.Task, best: Sample) -> str:
 
 def _size(target: Target, scene: Scene) -> str:
     length, goal = float(scene.size.max()), float(target.size.max())
-    if goal / SIZES <= length <= goal * SIZES:
+    times = times_as_large(length, goal)
+    if times is None:
         return ""
-    times, small, large = (
-        (length / goal, "target", "model") if length > goal else (goal / length, "model", "target")
-    )
+    small, large = ("target", "model") if length > goal else ("model", "target")
     return (
         f"the {large} is {times:.0f} times as large as the {small}: the longest side of the model is {length:.3g} "
         f"scene units, that of the target {goal:.3g}. Scale the mesh in its file, or the model"
@@ -91,9 +104,7 @@ def _size(target: Target, scene: Scene) -> str:
 
 def _distance(target: Target, best: Sample) -> str:
     first = Scene([best.parts[0]]).bounds
-    low, high = target.bounds
-    gap = np.maximum(np.maximum(first[0] - high, low - first[1]), 0.0)
-    away = float(np.linalg.norm(gap))
+    away = gap(first, target.bounds)
     if away <= float(target.size.max()):
         return ""
     start, middle = ((bounds[0] + bounds[1]) / 2.0 for bounds in (first, target.bounds))

@@ -86,7 +86,7 @@ Threads = Annotated[
     ),
 ]
 Verbose = Annotated[
-    bool, typer.Option("--verbose", "-v", help="Print log scores and the steps of the search, too.")
+    bool, typer.Option("--verbose", help="Print log scores and the steps of the search, too.")
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON. Files are then written only with -o.")]
 

@@ -13,8 +13,8 @@ from typing import Annotated, Any
 import typer
 
 import niwaki as nw
+from niwaki import _engine, shell
 from niwaki import result as results
-from niwaki import shell
 from niwaki.errors import InputError
 from niwaki.errors.folders import held_folder
 from niwaki.errors.schema import fitted
@@ -32,7 +32,7 @@ from niwaki.shell import (
 from niwaki.shell.app import Threads, Verbose, app, counted
 from niwaki.shell.clock import Clock
 from niwaki.shell.progress import progress_line
-from niwaki.targets.asks import DRAWN
+from niwaki.targets.asks import DRAWN, OPTIONS
 
 
 @app.command()
@@ -68,18 +68,37 @@ def grow(
             result = _run(search, reference, threads, stored, clock, verbose)
             _end(result, reference, folder, contents, out, stored, clock, verbose)
         return
+    patterns, values = origin.read(origin_flags)
+    earlier = None
     with clock.part("compile"):
-        reference, arguments = resume.model_of(context, source)
+        if source.model is None:
+            # The model of the earlier result, as it was.
+            earlier = origin.Origin.of_flags(origin_flags, patterns)
+        if earlier is None:
+            reference, arguments = resume.model_of(context, source)
+        else:
+            reference, arguments = earlier.reference, {}
+            if source.values or source.preset:
+                reason = "a result keeps its model without the names of the arguments"
+                raise InputError("flag-alone", flag="NAME=VALUE", other="MODEL", reason=reason)
         reference.model.program()
     single_file = out.single_file(formats.SINGLE_FILES, **flags.of_folders)
-    patterns, values = origin.read(origin_flags)
-    earlier = origin.Origin.of_flags(origin_flags, patterns)
-    asks = controls.terms(options, reference)
-    style = reference.style or ("ink" if any(sketch in DRAWN for sketch, _ in asks) else None)
+    earlier = earlier or origin.Origin.of_flags(origin_flags, patterns)
+    has_goals = any(_is_given(context, name) for name in OPTIONS)
+    asks = controls.terms(options, reference) if earlier is None or has_goals else []
+    drawn = [sketch for sketch, _ in asks]
+    if earlier is not None and not has_goals:
+        drawn = [call.function for call in earlier.sample.search.score.asks]
+    style = reference.style or ("ink" if any(sketch in DRAWN for sketch in drawn) else None)
     files = formats.Files.of_flags(flags, style, single_file)
     with clock.part("target"):
         hold = {**values, **(earlier.held if earlier else {})}
-        search = request.search_of(reference, asks, search_flags, method_settings, arguments, hold or None)
+        if earlier is None or has_goals:
+            search = request.search_of(
+                reference, asks, search_flags, method_settings, arguments, hold or None
+            )
+        else:
+            search = earlier.search_again(reference, search_flags, method_settings, arguments, hold or None)
     diverse = method_settings["diverse"]
     selection.exported(flags.export, search_flags.runs if diverse is None else diverse)
     contents = Contents(files, images, flags.export, None if earlier is None else earlier.data())
@@ -98,6 +117,12 @@ def grow(
                     checkpoint = resume.new_checkpoint(folder, "grow", reference, **asdict(contents))
                 result = _run(search, reference, threads, checkpoint, clock, verbose)
         _end(result, reference, folder, contents, out, checkpoint, clock, verbose, single_file)
+
+
+def _is_given(context: typer.Context, name: str) -> bool:
+    """Whether a flag is on the command line."""
+    source = context.get_parameter_source(name)
+    return source is not None and source.name == "COMMANDLINE"
 
 
 def _run(
@@ -209,15 +234,40 @@ def _write(
     selected = [(number, result[number - 1]) for number in numbers if result[number - 1].primitives]
     names = [*files.names(), *(name for number, _ in selected for name in files.names(number))]
     with shell.results.results_folder(folder, data, [*names, *images.names(result, files.style)]):
-        with clock.part("pictures"):
-            images.write(result, folder, files.style)
+        with clock.part("draft"):
+            images.draft(result, folder, files.style)
         with clock.part("files"):
             files.write(best, folder)
             for number, sample in selected:
                 files.write(sample, folder, number)
+        # Last, since they take longest: Ctrl-C keeps the drafts and the files.
+        with clock.part("pictures"):
+            images.write(result, folder, files.style)
+
+
+#: The share of the target below which a result is called a failure.
+LITTLE = 0.1
+
+
+def _too_little(result: nw.Result) -> str:
+    """Return a warning that the best run covers little of its target, with the constraint that stopped most runs."""
+    fit = result.best.fit
+    if fit is None or fit.covered >= LITTLE:
+        return ""
+    text = f"warning: the best run covers only {fit.covered:.1%} of the target"
+    blame = getattr(getattr(result.info, "losses", None), "blame", ())
+    if not blame:
+        return text
+    first = blame[0]
+    cure = (_engine.SKETCHES.get(first.constraint) or ("", ""))[1]
+    if first.constraint == "no_self_intersection":
+        cure += ', or let limbs bend with `joint="round"`; `--rule none` allows all overlaps'
+    return f"{text}: most lost runs ended because {first}\n  {cure}"
 
 
 def _summary(result: nw.Result, place: Path, clock: Clock, verbose: bool) -> None:
+    if warning := _too_little(result):
+        typer.secho(warning, fg="red", err=True)
     if (
         verbose
         and isinstance(result.info, results.info.ImproveInfo)

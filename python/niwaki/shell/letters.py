@@ -72,11 +72,15 @@ def letters(
                 threads=threads,
                 progress=lambda done, total: show(f"{done} of {total} searches"),
             )
-        seconds = time.perf_counter() - start
+        searched = time.perf_counter()
         files = [_write(word, single_file or Path(folder or "", FORMATS[name]), width) for name in selected]
     print("  ".join(f"{grown.letter.character} {grown.similarity:.2f}" for grown in word.letters))
     names = ", ".join(file.name for file in files)
-    print(f"{len(word.letters)} letters in {seconds:.1f} s, seed {seed}; {names} in {files[0].parent}")
+    drawn = time.perf_counter() - searched
+    print(
+        f"{len(word.letters)} letters in {searched - start:.1f} s, pictures in {drawn:.1f} s, seed {seed}; {names} in "
+        f"{files[0].parent}"
+    )
 
 
 def _write(word: Word, place: Path, width: int) -> Path:

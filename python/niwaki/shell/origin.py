@@ -8,6 +8,7 @@
 from __future__ import annotations
 
 from ast import literal_eval
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any
@@ -15,7 +16,7 @@ from typing import Annotated, Any
 import typer
 
 import niwaki as nw
-from niwaki import search, shell
+from niwaki import gallery, search, shell
 from niwaki.errors import InputError
 from niwaki.errors.memory import check_room
 from niwaki.errors.settings import bad
@@ -23,7 +24,9 @@ from niwaki.inputs.modules import modules
 from niwaki.lang.compiled import translated
 from niwaki.methods.room import RUN
 from niwaki.result import parts
-from niwaki.shell import selection
+from niwaki.shell import request, selection, settings
+from niwaki.shell.arguments import bound
+from niwaki.shell.references import ModelReference
 
 From = Annotated[
     Path | None,
@@ -153,23 +156,59 @@ class Origin:
             "reroll": list(self.reroll),
         }
 
-    def reroll_parts(self, request: nw.Search, particles: int | None, threads: int | None) -> nw.Result:
+    @property
+    def reference(self) -> ModelReference:
+        """The model of the result as it was; its file is not run."""
+        data = shell.run_files.load(self.path)
+        name = str(data["model"])
+        return ModelReference(name, self.sample.search.model, gallery.entry(name), data.get("file_hash"))
+
+    def search_again(
+        self,
+        reference: ModelReference,
+        flags: request.SearchFlags,
+        method_settings: Mapping[str, Any],
+        arguments: Mapping[str, Any],
+        hold: Mapping[str, Any] | None,
+    ) -> nw.Search:
+        """Return the search of the result, with its target; flags and arguments replace some of its settings."""
+        before = self.sample.search
+        assert isinstance(before, nw.Search)
+        method = before.method
+        if flags.method is not None or any(value is not None for value in method_settings.values()):
+            defaults = {"particles": gallery.PARTICLES} if reference.entry is None else reference.entry.usual
+            method = settings.method(flags.method, dict(method_settings), dict(defaults))
+        return replace(
+            before,
+            model=reference.model,
+            args=tuple(bound(reference.model, dict(arguments))) if arguments else before.args,
+            method=method,
+            polish=settings.polish(flags.polish, flags.polish_kernel) or before.polish,
+            seed=search.fresh(flags.seed),
+            runs=flags.runs,
+            choices=None,
+            hold=hold,
+            max_steps=flags.max_steps,
+            max_memory=flags.max_memory << 20,
+        )
+
+    def reroll_parts(self, goal: nw.Search, particles: int | None, threads: int | None) -> nw.Result:
         """Return the result with its parts grown again, once for each run of the requested search."""
-        check_room("--runs", request.runs, RUN, "run")
-        with translated(request.model.name):
-            trace = request.task.replay(self.sample.choices, request.seed)
-        start = nw.Sample.of_trace(trace, request, request.seed)
-        default_power = 1.0 if request.score.window is not None else search.POWER
-        power = getattr(request.method, "power", default_power)
+        check_room("--runs", goal.runs, RUN, "run")
+        with translated(goal.model.name):
+            trace = goal.task.replay(self.sample.choices, goal.seed)
+        start = nw.Sample.of_trace(trace, goal, goal.seed)
+        default_power = 1.0 if goal.score.window is not None else search.POWER
+        power = getattr(goal.method, "power", default_power)
         samples = []
-        for number in range(request.runs):
-            sample, seed = start, (request.seed + number) % 2**64
+        for number in range(goal.runs):
+            sample, seed = start, (goal.seed + number) % 2**64
             for pattern in self.reroll:
                 scene = [part.address for part in sample.parts]
-                for part in parts.matching_parts(pattern, sample.choices, scene, request.model.name):
+                for part in parts.matching_parts(pattern, sample.choices, scene, goal.model.name):
                     grown = sample.regrow(
                         part, particles or PARTICLES, power=power, seed=seed, threads=threads
                     )
                     sample = grown.best
             samples.append(sample)
-        return nw.Result(replace(request, polish=None), samples, request.seed)
+        return nw.Result(replace(goal, polish=None), samples, goal.seed)

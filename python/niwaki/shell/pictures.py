@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
@@ -71,14 +72,27 @@ class Pictures:
         views = [f"{view.kind}.png" for view in result.score.views]
         return ["best.png", *(["sheet.png"] if len(result) > 1 else []), *views]
 
+    def draft(self, result: nw.Result, folder: Path, style: str | None) -> None:
+        """Draw the sheet and the best at once, with one ray for each pixel; a single picture needs no draft."""
+        if "sheet.png" in self.names(result, style) and style is None and not self.quick:
+            self._write(result, folder, style, {"samples": 1})
+
     def write(self, result: nw.Result, folder: Path, style: str | None) -> None:
         """Draw the pictures; `style` is the drawing style, None for scenes in space."""
+        try:
+            self._write(result, folder, style, {"samples": 1} if self.quick else {})
+        except KeyboardInterrupt:
+            if (folder / "best.png").exists():
+                line = f"some pictures in {folder} are drafts; niwaki replay {folder / 'run.json'} draws them whole"
+                print(line, file=sys.stderr)
+            raise
+
+    def _write(self, result: nw.Result, folder: Path, style: str | None, draft: dict[str, Any]) -> None:
         names = self.names(result, style)
         if not names:
             return
-        self.best(result.best, folder / "best.png", style)
+        self.best(result.best, folder / "best.png", style, draft)
         styled: dict[str, Any] = {} if style is None else {"style": style}
-        draft: dict[str, Any] = {"samples": 1} if self.quick else {}
         if "sheet.png" in names:
             small: dict[str, Any] = (
                 {"size": CELL} if self.quick and (result.score.target or not result.score.views) else {}
@@ -89,9 +103,12 @@ class Pictures:
             place = folder / f"{view.kind}.png"
             targets.views.save_view(place, result.best.scene, view, **styled, **draft, **high)
 
-    def best(self, sample: nw.Sample, place: Path, style: str | None) -> Path:
-        """Draw a run."""
+    def best(
+        self, sample: nw.Sample, place: Path, style: str | None, draft: dict[str, Any] | None = None
+    ) -> Path:
+        """Draw a run; `draft` has settings of a draft."""
         settings: dict[str, Any] = {} if style is None else {"style": style, "size": (800, 800)}
+        settings |= draft or {}
         if self.quick:
             settings |= {"samples": 1, "size": DRAFT if style is None else (DRAFT[1], DRAFT[1])}
         return sample.save(place, **settings)

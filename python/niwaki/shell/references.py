@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
-from types import FunctionType
+from types import FunctionType, ModuleType
 from typing import Any
 
 from niwaki.errors import InputError
@@ -75,21 +76,41 @@ def find(reference: str) -> ModelReference:
     raise InputError("unknown-model", name=reference, reason=reason)
 
 
+def names_in(reference: str) -> list[str]:
+    """Return the references of the models of a file: the file's own name if it has a single model, or names one."""
+    if not reference.endswith(".py"):
+        return [reference]
+    module, _ = run_file(Path(reference).resolve())
+    local = _models_of(module)[0]
+    return [reference] if len(local) < 2 else [f"{reference}:{name}" for name in local]
+
+
+def _models_of(module: ModuleType) -> tuple[list[str], list[str]]:
+    """Return the names of the models that a module defines, and of all its models: it may import models."""
+    models = {key: value for key, value in vars(module).items() if isinstance(value, Model)}
+    local = [key for key, value in models.items() if value.function.__module__ == module.__name__]
+    return local, list(models)
+
+
 def _in_file(reference: str, place: Path, name: str) -> ModelReference:
     if not place.is_file():
         raise InputError("unknown-model", name=reference, reason=f"there is no file {place.absolute()}")
     module, digest = run_file(place.resolve())
     space = vars(module)
-    models = {key: value for key, value in space.items() if isinstance(value, Model)}
-    # A file may import models from elsewhere; its own models go first.
-    local = [key for key, value in models.items() if value.function.__module__ == module.__name__]
-    for keys in (local, list(models)):
+    local, models = _models_of(module)
+    for keys in (local, models):
         if not name and len(keys) == 1:
             name = keys[0]
+    stem = re.sub(r"\W", "_", place.stem)
+    if not name and stem in local:
+        # Of several models the one that is named like its file is the main one; the others are its parts.
+        name = stem
     function = space.get(name)
     if isinstance(function, FunctionType):
         function = Model(function)
     if not isinstance(function, Model):
-        models_here = ", ".join(models) or "no function marked with `@model`"
-        raise InputError("unknown-model", name=reference, reason=f"{place} defines {models_here}")
+        reason = f"{place} defines {', '.join(models) or 'no function marked with `@model`'}"
+        if not name and len(models) > 1:
+            reason = f"{reason}: name one of them, as in {place.name}:{(local or models)[0]}"
+        raise InputError("unknown-model", name=reference, reason=reason)
     return ModelReference(f"{place.resolve()}:{name}", function, file_hash=digest)

@@ -21,10 +21,10 @@ from websockets.sync.client import connect as dial
 
 from niwaki.errors import NiwakiError
 from niwaki.studio.frames import unpack
-from niwaki.studio.messages import PROTOCOL, Command, Difference, Picture, Regions, Shape
+from niwaki.studio.messages import PROTOCOL, Command, Difference, Mask, Picture, Regions, Shape
 
 #: Events with a payload of bytes; they do not answer a command.
-FRAMES = ("shape", "picture", "regions")
+FRAMES = ("shape", "picture", "regions", "mask")
 
 
 class StudioError(NiwakiError):
@@ -52,6 +52,8 @@ class Studio:
         The differences from targets received so far.
     pictures : list of (Picture or Regions, bytes)
         The pictures of drawings and the regions received so far.
+    masks : list of (Mask, bytes)
+        The masks of sketches received so far.
     events : list of dict
         All events received so far.
     """
@@ -68,6 +70,7 @@ class Studio:
         self.shapes: list[tuple[Shape, bytes]] = []
         self.differences: list[tuple[Difference, bytes]] = []
         self.pictures: list[tuple[Picture | Regions, bytes]] = []
+        self.masks: list[tuple[Mask, bytes]] = []
         self.events: list[dict[str, Any]] = []
         self.ask("hello", protocol=PROTOCOL)
 
@@ -119,11 +122,13 @@ class Studio:
         data = self._socket.recv(max(timeout, 0.0))
         if isinstance(data, bytes):
             header, payload = unpack(data)
-            message = msgspec.json.decode(header, type=Shape | Difference | Picture | Regions)
+            message = msgspec.json.decode(header, type=Shape | Difference | Picture | Regions | Mask)
             if isinstance(message, Shape):
                 self.shapes.append((message, bytes(payload)))
             elif isinstance(message, Difference):
                 self.differences.append((message, bytes(payload)))
+            elif isinstance(message, Mask):
+                self.masks.append((message, bytes(payload)))
             else:
                 self.pictures.append((message, bytes(payload)))
             event: dict[str, Any] = msgspec.to_builtins(message)

@@ -25,7 +25,7 @@ class Document(Struct, kw_only=True):
     arguments
         Arguments of the model, by name.
     results
-        The gallery, in its order.
+        The gallery of every model, in its order.
     picked
         The active result.
     held
@@ -52,6 +52,12 @@ class Document(Struct, kw_only=True):
         """SHA-256 of the document, in hexadecimal."""
         return hashlib.sha256(msgspec.json.encode(self, order="deterministic")).hexdigest()
 
-    def starred(self) -> list[Outcome]:
-        """Return the starred results, in the order of the gallery."""
-        return [outcome for outcome in self.results if outcome.key in self.stars]
+    def kept(self) -> list[Outcome]:
+        """Return what a new search keeps: starred results, and the results of other models, in their order."""
+        return [
+            outcome for outcome in self.results if outcome.key in self.stars or outcome.model != self.model
+        ]
+
+    def first(self, model: str) -> Key | None:
+        """Return the key of a model's first result."""
+        return next((outcome.key for outcome in self.results if outcome.model == model), None)

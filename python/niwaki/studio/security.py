@@ -4,9 +4,10 @@
   refused.
 - `Origin`, if present, must be the studio; `null` is refused. `Sec-Fetch-Site`, if present, must be `same-origin` or
   `none` (typed by the user): other pages cannot even load a picture from here. A browser's socket must have an origin.
-- `/open?token=` works once and sets a cookie that scripts of the page cannot read. Browsers send cookies to every port
-  of a host, so the cookie's name has the port and a random part: no other server on this machine knows it, and
-  two studios do not overwrite each other's cookies.
+- `/open?token=` works once and sets a cookie that scripts of the page cannot read. With this cookie a used link leads
+  to the page, and the session's folder keeps it, so that an open page comes back after a restart. Browsers send
+  cookies to every port of a host, so the cookie's name has the port and a random part: no other server on this machine
+  knows it, and two studios do not overwrite each other's cookies.
 - Scripts send the key as `Authorization: Bearer`.
 """
 
@@ -45,13 +46,15 @@ class Guard:
         The token that `/open` accepts next; a new token after each use.
     key : str
         The key that scripts send.
+    cookie_name, cookie : str
+        The cookie of known clients.
     """
 
-    def __init__(self, app: ASGIApp, port: int) -> None:
+    def __init__(self, app: ASGIApp, port: int, cookie: tuple[str, str] | None = None) -> None:
         self._app = app
         self._hosts = {f"{name}:{port}" for name in ("127.0.0.1", "localhost")}
-        self._cookie_name = f"niwaki_{port}_{secrets.token_hex(4)}"
-        self._cookie = secrets.token_urlsafe(32)
+        fresh = f"niwaki_{port}_{secrets.token_hex(4)}", secrets.token_urlsafe(32)
+        self.cookie_name, self.cookie = cookie or fresh
         self.token = secrets.token_urlsafe(24)
         self.key = secrets.token_urlsafe(32)
 
@@ -107,16 +110,22 @@ class Guard:
         return None
 
     def _redeem(self, scope: Scope) -> Response:
-        """Answer a token: with a cookie for its first use, with an error after that."""
+        """Answer a token: with a cookie for its first use; then only a client with the cookie reaches the page."""
         query = scope["query_string"].decode("latin-1")
         token = query.removeprefix("token=") if query.startswith("token=") else ""
+        if (
+            scope["method"] == "GET"
+            and not _equal(token, self.token)
+            and self._is_known(Headers(scope=scope))
+        ):
+            return RedirectResponse("/", 303)
         if scope["method"] != "GET" or not _equal(token, self.token):
             return PlainTextResponse(
                 "this link has been used or belongs to another studio; the terminal shows a new link\n", 403
             )
         self.token = secrets.token_urlsafe(24)
         answer = RedirectResponse("/", 303)
-        answer.set_cookie(self._cookie_name, self._cookie, httponly=True, samesite="strict", path="/")
+        answer.set_cookie(self.cookie_name, self.cookie, httponly=True, samesite="strict", path="/")
         return answer
 
     def _is_known(self, headers: Headers) -> bool:
@@ -127,7 +136,7 @@ class Guard:
             jar = SimpleCookie(headers.get("cookie", ""))
         except CookieError:
             return False
-        return self._cookie_name in jar and _equal(jar[self._cookie_name].value, self._cookie)
+        return self.cookie_name in jar and _equal(jar[self.cookie_name].value, self.cookie)
 
 
 def _equal(candidate: str, secret: str) -> bool:

@@ -57,8 +57,8 @@ DRAWINGS = (".svg", ".png", ".webp", ".bmp", ".gif", ".tif", ".tiff", ".jpg", ".
 _decode = msgspec.json.Decoder(AnyCommand).decode
 
 
-def application(session: Session, port: int) -> Guard:
-    """Make the application, with a guard in front of it."""
+def application(session: Session, port: int, cookie: tuple[str, str] | None = None) -> Guard:
+    """Make the application, with a guard in front of it; `cookie` is the name and the value of a known cookie."""
 
     async def page(request: Request) -> Response:
         name = PAGE[request.url.path]
@@ -114,6 +114,7 @@ def application(session: Session, port: int) -> Guard:
             routes=routes, exception_handlers=dict.fromkeys((OSError, NiwakiError, Exception), _failed)
         ),
         port,
+        cookie,
     )
 
 

@@ -16,9 +16,10 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 from watchfiles import awatch
 
-from niwaki.errors import InputError
+from niwaki.errors import InputError, NiwakiError
 from niwaki.errors.files import write_whole
 from niwaki.errors.folders import held_folder
+from niwaki.inputs import bytes_of
 from niwaki.studio.security import Guard
 from niwaki.studio.server import COMMAND, application
 from niwaki.studio.session import Session, begin, reload
@@ -29,6 +30,8 @@ try:
 except ImportError:
     resource = None
 
+#: The session's file with its port and its cookie, by which an open page comes back after a restart.
+COOKIE = "cookie"
 #: Connections at one time, and seconds in which each has to send its first request.
 CONNECTIONS, FIRST_WORD = 256, 15.0
 #: Unread bytes of a socket, beside one message; seconds to read the rest after its end.
@@ -167,9 +170,10 @@ def _absolute(reference: str) -> str:
 
 async def _serve(models: list[str], folder: Path, port: int, browser: bool, trust: bool) -> None:
     session = Session(folder, models, trust)
-    listener = listening(port)
+    listener = _listening_again(port, folder)
     port = listener.getsockname()[1]
-    guard = application(session, port)
+    guard = application(session, port, _stored_cookie(folder, port))
+    write_whole(folder / COOKIE, f"{port} {guard.cookie_name} {guard.cookie}\n".encode(), private=True)
     config = uvicorn.Config(
         guard,
         http=Patient,
@@ -195,6 +199,32 @@ async def _serve(models: list[str], folder: Path, port: int, browser: bool, trus
         for task in (watching, beginning, telling):
             task.cancel()
         await session.end()
+
+
+def _listening_again(port: int, folder: Path) -> socket.socket:
+    """Open a socket; if no port is given, at the session's last port, so that an open page finds the studio again."""
+    stored = _stored(folder)
+    if port == 0 and stored is not None:
+        with contextlib.suppress(InputError):
+            return listening(stored[0])
+    return listening(port)
+
+
+def _stored(folder: Path) -> tuple[int, str, str] | None:
+    """Read the port and the cookie of the session's last studio; None without them."""
+    try:
+        words = bytes_of(folder / COOKIE, "session").decode().split()
+        port = int(words[0])
+    except (NiwakiError, ValueError, IndexError):
+        return None
+    is_whole = len(words) == 3 and 0 < port < 65536 and words[1].startswith(f"niwaki_{port}_")
+    return (port, words[1], words[2]) if is_whole and len(words[2]) >= 32 else None
+
+
+def _stored_cookie(folder: Path, port: int) -> tuple[str, str] | None:
+    """Return the cookie of the session's last studio, if it had this port."""
+    stored = _stored(folder)
+    return stored[1:] if stored is not None and stored[0] == port else None
 
 
 async def _tell(guard: Guard, port: int, browser: bool) -> None:

@@ -11,7 +11,7 @@ from collections.abc import AsyncIterator
 
 import msgspec
 
-from niwaki.studio.messages import Event, Picture, Regions, Shape
+from niwaki.studio.messages import Event, Mask, Picture, Regions, Shape
 
 #: Messages, and bytes of more than one message, that may wait; with more, the window is closed.
 WAITING, ROOM = 4_000, 64 << 20
@@ -61,8 +61,10 @@ class Window:
                 yield data
 
 
-def newest(header: Shape | Picture | Regions) -> str:
+def newest(header: Shape | Picture | Regions | Mask) -> str:
     """Return the kind of a shape of which only the newest counts; empty if all of them count."""
-    if header.role == "obstacle":
-        return f"obstacle {header.number}"
-    return header.role if header.role in ("best", "moving", "ghost") else ""
+    if isinstance(header, Mask):
+        return "mask"
+    if isinstance(header, Shape) and header.role in ("obstacle", "glimpse"):
+        return f"{header.role} {header.source if header.role == 'glimpse' else header.number}"
+    return header.role if header.role in ("best", "moving", "ghost", "prior") else ""

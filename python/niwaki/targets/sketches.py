@@ -138,6 +138,13 @@ class Score:
             (sketch.arguments["window"] for sketch in self.asks if "window" in sketch.arguments), None
         )
 
+    @property
+    def surroundings(self) -> dict[str, Any]:
+        """The solids that scenes avoid and the height of the floor, as settings of pictures; empty without them."""
+        obstacles = [call.arguments["obstacle"] for call in self.asks if call.function == "avoid"]
+        heights = [call.arguments["y"] for call in self.asks if call.function == "floor"]
+        return ({"obstacles": obstacles} if obstacles else {}) | ({"ground": max(heights)} if heights else {})
+
     def data(self, write: Callable[[Any], Any]) -> list[dict[str, Any]]:
         """Return the sketches as plain data; `write` converts arguments."""
         return [

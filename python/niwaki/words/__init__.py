@@ -7,11 +7,11 @@
 - memo: `mem`, for memoised functions
 - shapes: `box`, `cylinder`, ...: solids, and flat shapes such as `stroke`
 - measures: `Frame`, `Bark`, which some shapes take
-- colors: `hsv`, `lab`, `to_hsv`, `to_lab`, `color_difference`
+- colors: `rgb`, `hsv`, `lab`, `to_hsv`, `to_lab`, `color_difference`
 - polygons: `polygon_area`, `polygon_contains`, `polygon_distance`, `polygon_disc_area`, `polygon_inset`
-- frames: `look`
+- frames: `look`, `place`, `mirrored`, `arrayed`
 - vectors: `vec`, `dot`, `cross`, `norm`, `normalize`, `distance`, `rotate`, `rotation`
-- numbers: `clip`, `lerp`, `sign`
+- numbers: `clip`, `lerp`, `linspace`, `sign`, `smoothstep`
 - soft: `softeq`, `soft_at_least`, `soft_at_most`, `smooth_max`, `smooth_min`, `smooth_abs`
 - running: the current run
 """

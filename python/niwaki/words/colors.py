@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import math
 
+from niwaki import _engine
 from niwaki.words.vectors import Vec, VecLike, _vec
 
-__all__ = ["color_difference", "hsv", "lab", "to_hsv", "to_lab"]
+__all__ = ["color_difference", "hsv", "lab", "rgb", "to_hsv", "to_lab"]
 
 TO_XYZ = (
     (0.4124564, 0.3575761, 0.1804375),
@@ -27,6 +28,18 @@ DELTA = 6.0 / 29.0
 TAU = 2.0 * math.pi
 
 Three = tuple[float, float, float]
+
+
+def rgb(color: VecLike | str) -> Vec:
+    """Return the three sRGB parts of a colour.
+
+    Parameters
+    ----------
+    color
+        A name of CSS such as "tomato", "#c83c1e" or "#f80", or three numbers.
+    """
+    parts: Vec = _engine.operation("rgb", color)
+    return parts
 
 
 def hsv(h: float, s: float, v: float) -> Vec:
@@ -53,7 +66,7 @@ def hsv(h: float, s: float, v: float) -> Vec:
     return Vec((part(5.0), part(3.0), part(1.0)))
 
 
-def to_hsv(color: VecLike) -> Vec:
+def to_hsv(color: VecLike | str) -> Vec:
     """Return the hue (in turns, in [0, 1)), saturation and value of a colour; a grey has hue 0.
 
     Parameters
@@ -96,7 +109,7 @@ def lab(l: float, a: float, b: float) -> Vec:  # noqa: E741 (its name everywhere
     return Vec(tuple(_displayed(part) for part in _product(FROM_XYZ, xyz)))
 
 
-def to_lab(color: VecLike) -> Vec:
+def to_lab(color: VecLike | str) -> Vec:
     """Return the CIELAB coordinates of a colour: lightness, green to red, blue to yellow.
 
     Parameters
@@ -109,7 +122,7 @@ def to_lab(color: VecLike) -> Vec:
     return Vec((116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)))
 
 
-def color_difference(a: VecLike, b: VecLike) -> float:
+def color_difference(a: VecLike | str, b: VecLike | str) -> float:
     """Return the difference CIEDE2000 of two colours; about 1 is the smallest difference that a person sees.
 
     See Sharma, Wu & Dalal 2005, equations 2 to 22. The plain distance in CIELAB is `distance(to_lab(a), to_lab(b))`.
@@ -159,8 +172,8 @@ def color_difference(a: VecLike, b: VecLike) -> float:
     return math.sqrt(max(dl * dl + dc * dc + dh * dh + rotated * dc * dh, 0.0))
 
 
-def _three(color: VecLike) -> Three:
-    red, green, blue = _vec(color).parts
+def _three(color: VecLike | str) -> Three:
+    red, green, blue = (rgb(color) if isinstance(color, str) else _vec(color)).parts
     return (red, green, blue)
 
 

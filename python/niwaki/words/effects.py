@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
+from niwaki import _engine
 from niwaki._engine import Shape
 from niwaki.words.distributions import Distribution
-from niwaki.words.measures import worn
 from niwaki.words.running import runner
 
 __all__ = ["condition", "emit", "factor", "force", "future", "infer", "observe", "query"]
@@ -72,9 +72,10 @@ def emit(
     *shapes: Any,
     name: str | None = None,
     label: str | None = None,
-    color: Sequence[float] | None = None,
+    color: Sequence[float] | str | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> None:
     """Add shapes to the scene. The shapes of an `emit` form one part, and may overlap each other.
 
@@ -87,15 +88,17 @@ def emit(
     label
         The part's name for people, a constant text; by default its `name`, or its first shape.
     color
-        `(r, g, b)` in [0, 1], for shapes that have no colour yet.
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e", for shapes that have no colour yet.
     metalness
         From 0 (paint, wood, stone) to 1 (metal), for solids that have no metalness yet.
     roughness
         From 0 (a mirror) to 1 (chalk), for solids that have no roughness yet.
+    material
+        The name of a material, which files keep, for solids that have none yet.
     """
-    look = {"color": color, "metalness": metalness, "roughness": roughness}
-    options = {key: value for key, value in look.items() if value is not None}
-    runner("emit").emit([worn(shape, options) for shape in flatten(shapes)] if options else shapes)
+    look = (color, metalness, roughness, material)
+    is_plain = all(part is None for part in look)
+    runner("emit").emit(shapes if is_plain else _engine.operation("worn", *look, tuple(flatten(shapes))))
 
 
 def future(function: Callable[..., T], *args: Any, label: str | None = None) -> T:

@@ -1,11 +1,20 @@
-"""The word `look`, which sets the frame from which a guide sees the scene."""
+"""Frames: `look`, from where a guide sees the scene; `place`, `mirrored` and `arrayed`, which put calls into frames."""
 
 from __future__ import annotations
 
-from niwaki.words.measures import Frame
-from niwaki.words.vectors import Vec, VecLike, dot, norm
+from collections.abc import Callable, Iterable
+from typing import Any, TypeVar
 
-__all__ = ["look"]
+from niwaki.words.measures import Frame
+from niwaki.words.running import runner
+from niwaki.words.vectors import Rotation, Vec, VecLike, dot, norm
+
+__all__ = ["arrayed", "look", "mirrored", "place"]
+
+T = TypeVar("T")
+
+#: What a call can be placed in: a point, a rotation about the origin, both, or a frame.
+Placing = VecLike | Rotation | tuple[VecLike, Rotation] | Frame
 
 #: Cosine to the y axis above which a direction is too close to it for the y axis to be up.
 STEEP = 0.9
@@ -45,6 +54,75 @@ def look(position: VecLike, forward: VecLike, up: VecLike | None = None) -> Fram
     if norm(across) < ALONG:
         raise ValueError("`look`: `up` lies along `forward`")
     return Frame(center, ahead, _unit(across), 1.0)
+
+
+def place(frame: Placing, function: Callable[..., T], *args: Any) -> T:
+    """Call a function so that all shapes that it emits, also in calls below it, are in a frame.
+
+    The function draws, scores and returns as in any call; its points and directions are those of the frame. A `place`
+    inside of the function is relative to this frame. Calls of memoised functions belong to no caller, and are not
+    placed.
+
+    Parameters
+    ----------
+    frame
+        A point, which becomes the origin; a rotation about the origin; a pair of a point and a rotation, which turns
+        first; or a `Frame`, such as `look` returns: z goes forward and y up.
+    function
+        A model function.
+    args
+        The function's arguments, by position.
+
+    Returns
+    -------
+    The function's value.
+    """
+    value: T = runner("place").place(frame, function, args)
+    return value
+
+
+def mirrored(axis: str | VecLike, function: Callable[..., T], *args: Any) -> list[T]:
+    """Call a function twice, the second time with its shapes reflected at the plane through the origin across `axis`.
+
+    Each call draws its own choices. For two equal halves, draw before, and pass the values as arguments.
+
+    Parameters
+    ----------
+    axis
+        "x", "y", "z" or a direction: the normal of the mirror.
+    function
+        A model function.
+    args
+        The function's arguments, by position.
+
+    Returns
+    -------
+    The values of both calls.
+    """
+    values: list[T] = runner("mirrored").mirrored(axis, function, args)
+    return values
+
+
+def arrayed(frames: Iterable[Placing], function: Callable[..., T], *args: Any) -> list[T]:
+    """Call a function once in each frame of a list, as `place` does.
+
+    Each call draws its own choices. For equal copies, draw before, and pass the values as arguments.
+
+    Parameters
+    ----------
+    frames
+        Points, rotations, pairs of both, or frames.
+    function
+        A model function.
+    args
+        The function's arguments, by position.
+
+    Returns
+    -------
+    The values of all calls, in order.
+    """
+    values: list[T] = runner("arrayed").arrayed(frames, function, args)
+    return values
 
 
 def _triple(value: VecLike) -> Vec:

@@ -14,7 +14,7 @@ from niwaki.words.vectors import VecLike
 __all__ = ["Bark", "Frame"]
 
 Rotation = Sequence[Sequence[float]]
-Color = Sequence[float]
+Color = Sequence[float] | str
 Axis = str | VecLike
 #: Points of three numbers.
 Points = Sequence[VecLike]
@@ -69,7 +69,7 @@ def make(word: str, *arguments: Any) -> Any:
 
 
 #: Options of an `emit` for shapes that do not have them: a colour for all shapes, the others for solids.
-LOOKS = ("color", "metalness", "roughness")
+LOOKS = ("color", "metalness", "roughness", "material")
 
 
 def worn(shape: Any, look: Mapping[str, Any], over: bool = False) -> Any:

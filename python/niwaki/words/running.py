@@ -43,6 +43,18 @@ class Runner(Protocol):
         """Postpone a call."""
         ...
 
+    def place(self, frame: Any, function: Callable[..., Any], args: Sequence[Any]) -> Any:
+        """Call a function in a frame."""
+        ...
+
+    def mirrored(self, axis: Any, function: Callable[..., Any], args: Sequence[Any]) -> Any:
+        """Call a function as it is, and reflected."""
+        ...
+
+    def arrayed(self, frames: Any, function: Callable[..., Any], args: Sequence[Any]) -> Any:
+        """Call a function in each of several frames."""
+        ...
+
     def force(self, value: Any) -> Any:
         """Return the value of a future."""
         ...

@@ -1,7 +1,7 @@
 """Shapes, the things that `emit` adds to a scene. Right-handed, y up, metres by default.
 
 A point is a 3-tuple, a list or a `vec`. Flat shapes lie on a plane parallel to z = 0, and are seen from +z. A colour
-is `(r, g, b)` in [0, 1]. A rotation is three rows of three numbers, as `rotation(axis, angle)` gives. In a
+is `(r, g, b)` in [0, 1] or a name. A rotation is three rows of three numbers, as `rotation(axis, angle)` gives. In a
 plain-Python run a shape is the engine's own `Shape`.
 
 Written by tests/house/words.py from the engine's table of solids.
@@ -46,6 +46,7 @@ def box(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """A box.
 
@@ -62,15 +63,19 @@ def box(
     taper_axis
         "x", "y" or "z".
     bevel
-        Width of the bevelled edges, drawn only.
+        Rounding of the edges, drawn only: a share of half the smallest side, 0 for sharp edges.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
-    return make("box", center, size, rotation, taper, taper_axis, bevel, color, metalness, roughness)
+    return make(
+        "box", center, size, rotation, taper, taper_axis, bevel, color, metalness, roughness, material
+    )
 
 
 def cylinder(
@@ -84,6 +89,7 @@ def cylinder(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """A cylinder, or a cone cut off when `top_radius` is given.
 
@@ -102,16 +108,29 @@ def cylinder(
     rotation
         Turns it about its middle.
     bevel
-        Width of the bevelled edges, drawn only.
+        Rounding of the edges, drawn only: a share of half the smallest side, 0 for sharp edges.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
     return make(
-        "cylinder", center, radius, length, axis, top_radius, rotation, bevel, color, metalness, roughness
+        "cylinder",
+        center,
+        radius,
+        length,
+        axis,
+        top_radius,
+        rotation,
+        bevel,
+        color,
+        metalness,
+        roughness,
+        material,
     )
 
 
@@ -125,6 +144,7 @@ def cone(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """A cone.
 
@@ -141,15 +161,17 @@ def cone(
     rotation
         Turns it about its middle.
     bevel
-        Width of the bevelled edges, drawn only.
+        Rounding of the edges, drawn only: a share of half the smallest side, 0 for sharp edges.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
-    return make("cone", center, radius, length, axis, rotation, bevel, color, metalness, roughness)
+    return make("cone", center, radius, length, axis, rotation, bevel, color, metalness, roughness, material)
 
 
 def limb(
@@ -159,9 +181,11 @@ def limb(
     end_radius: float,
     start_normal: VecLike | None = None,
     end_normal: VecLike | None = None,
+    joint: str | None = None,
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """A tapering, bending segment between two rings; limbs that share a ring only touch.
 
@@ -173,15 +197,30 @@ def limb(
         Their radii, greater than 0.
     start_normal, end_normal
         Their directions; from `start` to `end` when left out.
+    joint
+        "round": it begins with a ball, and may overlap the parts in which its start lies.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
     return make(
-        "limb", start, end, start_radius, end_radius, start_normal, end_normal, color, metalness, roughness
+        "limb",
+        start,
+        end,
+        start_radius,
+        end_radius,
+        start_normal,
+        end_normal,
+        joint,
+        color,
+        metalness,
+        roughness,
+        material,
     )
 
 
@@ -193,6 +232,7 @@ def segment(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """A bent, tapering segment of a tree: a wedge from `start` to `split`, a clean cone from there to `end`.
 
@@ -206,13 +246,15 @@ def segment(
     onto
         What the base lies on, `(low, low_radius, high, high_radius)`.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
-    return make("segment", start, split, end, onto, color, metalness, roughness)
+    return make("segment", start, split, end, onto, color, metalness, roughness, material)
 
 
 def mesh(
@@ -224,6 +266,7 @@ def mesh(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """A closed mesh of triangles.
 
@@ -240,13 +283,15 @@ def mesh(
     scale
         Factor on all lengths, greater than 0.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
-    return make("mesh", vertices, faces, center, rotation, scale, color, metalness, roughness)
+    return make("mesh", vertices, faces, center, rotation, scale, color, metalness, roughness, material)
 
 
 def stroke(
@@ -263,7 +308,7 @@ def stroke(
     end_width
         Width of the end; `width` when left out.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     """
     return make("stroke", start, end, width, end_width, color)
 
@@ -282,7 +327,7 @@ def ellipse(
     angle
         Of the length, radians from +x to +y.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     """
     return make("ellipse", center, length, width, angle, color)
 
@@ -297,7 +342,7 @@ def disc(center: VecLike, radius: float, color: Color | None = None) -> Any:
     radius
         Greater than 0.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     """
     return make("disc", center, radius, color)
 
@@ -308,6 +353,7 @@ def sphere(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """A sphere.
 
@@ -318,13 +364,15 @@ def sphere(
     radius
         Greater than 0.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
-    return make("sphere", center, radius, color, metalness, roughness)
+    return make("sphere", center, radius, color, metalness, roughness, material)
 
 
 def ellipsoid(
@@ -334,6 +382,7 @@ def ellipsoid(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """An ellipsoid: a sphere with a length along each axis.
 
@@ -346,13 +395,15 @@ def ellipsoid(
     rotation
         Turns it about its middle.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
-    return make("ellipsoid", center, size, rotation, color, metalness, roughness)
+    return make("ellipsoid", center, size, rotation, color, metalness, roughness, material)
 
 
 def wedge(
@@ -363,6 +414,7 @@ def wedge(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """A wedge: a gable roof whose ridge runs along x.
 
@@ -377,13 +429,15 @@ def wedge(
     ridge
         Place of the ridge across: 0 in the middle, -1 and 1 above the edges at -z and +z (a ramp).
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
-    return make("wedge", center, size, rotation, ridge, color, metalness, roughness)
+    return make("wedge", center, size, rotation, ridge, color, metalness, roughness, material)
 
 
 def torus(
@@ -395,6 +449,7 @@ def torus(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """A ring.
 
@@ -411,13 +466,15 @@ def torus(
     rotation
         Turns it about its middle.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
-    return make("torus", center, radius, tube, axis, rotation, color, metalness, roughness)
+    return make("torus", center, radius, tube, axis, rotation, color, metalness, roughness, material)
 
 
 def arch(
@@ -428,6 +485,7 @@ def arch(
     color: Color | None = None,
     metalness: float | None = None,
     roughness: float | None = None,
+    material: str | None = None,
 ) -> Any:
     """An arch: a half ring on two legs, as of a bridge or a door.
 
@@ -442,13 +500,170 @@ def arch(
     rotation
         Turns it about its middle.
     color
-        `(r, g, b)` in [0, 1].
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
     metalness
         From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
     """
-    return make("arch", center, size, thickness, rotation, color, metalness, roughness)
+    return make("arch", center, size, thickness, rotation, color, metalness, roughness, material)
+
+
+def extrude(
+    polygon: Pairs,
+    height: float,
+    center: VecLike = (0.0, 0.0, 0.0),
+    twist: float = 0.0,
+    taper: float = 1.0,
+    axis: str = "y",
+    rotation: Rotation | None = None,
+    bevel: float | None = None,
+    color: Color | None = None,
+    metalness: float | None = None,
+    roughness: float | None = None,
+    material: str | None = None,
+) -> Any:
+    """A prism over a polygon, which may be concave.
+
+    Parameters
+    ----------
+    polygon
+        Its corners in order, in either direction: pairs (x, z); with the axis "z" (x, y), with "x" (z, y).
+    height
+        Length along the axis, greater than 0.
+    center
+        Where the polygon's origin goes.
+    twist
+        The angle by which the far end is turned about the axis, in radians.
+    taper
+        How much the far end is scaled about the polygon's origin; 0 for a tip.
+    axis
+        "x", "y" or "z": where it goes from the polygon.
+    rotation
+        Turns it about the polygon's origin.
+    bevel
+        Rounding of the edges, drawn only: a share of half the smallest side, 0 for sharp edges.
+    color
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
+    roughness
+        From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
+    """
+    return make(
+        "extrude",
+        polygon,
+        height,
+        center,
+        twist,
+        taper,
+        axis,
+        rotation,
+        bevel,
+        color,
+        metalness,
+        roughness,
+        material,
+    )
+
+
+def revolve(
+    profile: Pairs,
+    center: VecLike = (0.0, 0.0, 0.0),
+    axis: Axis = "y",
+    rotation: Rotation | None = None,
+    bevel: float | None = None,
+    color: Color | None = None,
+    metalness: float | None = None,
+    roughness: float | None = None,
+    material: str | None = None,
+) -> Any:
+    """A solid of revolution, such as a vase.
+
+    Parameters
+    ----------
+    profile
+        Points of a line, in either direction: pairs (radius, height), the radius from the axis. Ends that are
+        not on the axis are closed by discs; a line that ends where it begins makes a ring.
+    center
+        Where the point of the axis at height 0 goes.
+    axis
+        The axis: "x", "y", "z" or a direction.
+    rotation
+        Turns it about this point.
+    bevel
+        Rounding of the edges, drawn only: a share of half the smallest side, 0 for sharp edges.
+    color
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
+    roughness
+        From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
+    """
+    return make("revolve", profile, center, axis, rotation, bevel, color, metalness, roughness, material)
+
+
+def sweep(
+    profile: Pairs,
+    path: Points,
+    scale: float = 1.0,
+    color: Color | None = None,
+    metalness: float | None = None,
+    roughness: float | None = None,
+    material: str | None = None,
+) -> Any:
+    """A polygon that is drawn along a path of straight lines, such as a handrail.
+
+    Parameters
+    ----------
+    profile
+        Corners of the polygon in order, in either direction: pairs (sideways, up) about the path. Up is as near
+        to the y axis as can be where the path starts, or to the z axis if it starts steeply.
+    path
+        Points of the path, at least two.
+    scale
+        How much the polygon is scaled at the end of the path; 0 for a tip.
+    color
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
+    roughness
+        From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
+    """
+    return make("sweep", profile, path, scale, color, metalness, roughness, material)
+
+
+def hull(
+    points: Points,
+    color: Color | None = None,
+    metalness: float | None = None,
+    roughness: float | None = None,
+    material: str | None = None,
+) -> Any:
+    """The convex hull of points.
+
+    Parameters
+    ----------
+    points
+        At least four, not all in a plane; some may be inside.
+    color
+        `(r, g, b)` in [0, 1], or a name such as "tomato" or "#c83c1e".
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
+    roughness
+        From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    material
+        The name of a material, which files keep; pictures do not show it.
+    """
+    return make("hull", points, color, metalness, roughness, material)
 
 
 def extrude(

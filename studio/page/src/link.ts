@@ -1,12 +1,12 @@
 // The socket: commands out, events and frames in. Only uploads and exported files take another way.
 
-import type { Command, Difference, Event, Picture, Regions, Shape } from "./messages";
+import type { Command, Difference, Event, Mask, Picture, Regions, Shape } from "./messages";
 import { PROTOCOL } from "./messages";
 
 type Sent = Command extends infer C ? (C extends { id?: number } ? Omit<C, "id"> : never) : never;
 export type Answer = Event | undefined;
 /** Headers of frames, that is of messages with bytes. */
-export type Frame = Shape | Difference | Picture | Regions;
+export type Frame = Shape | Difference | Picture | Regions | Mask;
 
 export interface Link {
   /** Sends a command; the promise gives its last answer, or fails with its problem. */
@@ -42,7 +42,7 @@ export function connect(
     const id = ++ids;
     return new Promise((resolve, reject) => {
       if (socket.readyState !== WebSocket.OPEN) {
-        reject(new CommandError("closed", "The studio does not answer. Is it still running?"));
+        reject(new CommandError("closed", ""));
         return;
       }
       waiting.set(id, { resolve, reject });
@@ -84,7 +84,7 @@ export function connect(
     };
     socket.onclose = () => {
       onState(false);
-      for (const request of waiting.values()) request.reject(new CommandError("closed", "The connection to the studio was lost."));
+      for (const request of waiting.values()) request.reject(new CommandError("closed", ""));
       waiting.clear();
       setTimeout(open, 700);
     };

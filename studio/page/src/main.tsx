@@ -11,6 +11,7 @@ import { Easel, frame } from "./ui/easel";
 import { Gallery } from "./ui/gallery";
 import { play } from "./ui/growth";
 import { Inspector } from "./ui/inspector";
+import { Lost } from "./ui/notices";
 import { Palette } from "./ui/palette";
 import { ruling } from "./ui/rules";
 import { Setup } from "./ui/setup";
@@ -38,12 +39,18 @@ function App() {
         if (file) void store.upload(file);
       }}
     >
-      <Bar onFit={() => stage.fit()} />
-      <Setup />
+      {/* Without the studio nothing but looking at the scene works. */}
+      <div class="contents" inert={store.isLost.value}>
+        <Bar onFit={() => stage.fit()} />
+        <Setup />
+      </div>
       <Canvas />
       {isColoring && <Easel />}
-      <Gallery />
-      {isColoring ? <Palette /> : <Inspector />}
+      <div class="contents" inert={store.isLost.value}>
+        <Gallery />
+        {isColoring ? <Palette /> : <Inspector />}
+      </div>
+      <Lost />
     </div>
   );
 }
@@ -101,6 +108,17 @@ Object.assign(window, {
     },
     get camera() {
       return [...stage.camera.matrixWorld.elements, stage.camera.fov];
+    },
+    get notices() {
+      return store.notices.value;
+    },
+    get mask() {
+      const now = store.mask.value;
+      return now === null ? null : { ...now.header, share: now.marks.reduce((sum, mark) => sum + mark, 0) / now.marks.length };
+    },
+    /** The box of the scene on the canvas, CSS pixels: left, top, right, bottom. */
+    get box() {
+      return stage.box();
     },
     get selection() {
       return { level: store.level.value, part: store.part.value };
@@ -170,5 +188,7 @@ Object.assign(window, {
     },
     pointOf: (address: string) => stage.pointOf(address),
     hold: (name: string) => store.holdOrFree(name),
+    tell: store.tell,
+    forgetChoice: store.forgetChoice,
   },
 });

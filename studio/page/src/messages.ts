@@ -22,6 +22,7 @@ export interface TargetAsk {
   move?: [number, number, number];
   scale?: [number, number, number];
   turn?: number;
+  up?: "y" | "z";
 }
 
 /** A pen stroke: points and width as shares of the picture's height, from its upper left corner. */
@@ -44,6 +45,7 @@ export interface Sketch {
   aspect: number;
   camera?: Eye | null;
   kind?: "shadow" | "silhouette";
+  inside?: boolean;
 }
 
 /** A rule about regions of a drawing, as in `niwaki.color.Rules`. */
@@ -242,6 +244,7 @@ export interface Parameter {
   name: string;
   default: any;
   is_required: boolean;
+  is_whole: boolean;
 }
 
 /** A region of a drawing: its share of the picture, and its colour in the file. */
@@ -328,6 +331,20 @@ export interface Searching {
   fit: string;
 }
 
+/** An offered placement of the target: why, in a sentence, and the target at its new place. */
+export interface Placing {
+  text: string;
+  label: string;
+  target: TargetAsk;
+}
+
+/** The size of a run of the model without a target, the size of the target, and offered placements. */
+export interface Sizes {
+  model: [number, number, number] | null;
+  target: [number, number, number] | null;
+  offers: Placing[];
+}
+
 /** The state that every window shows; a patch has some of its fields. */
 export interface View {
   model: ModelInfo | null;
@@ -347,6 +364,7 @@ export interface View {
   redo: number;
   note: string;
   losses: string;
+  sizes: Sizes;
 }
 
 /** The whole state; `rev` counts the patches. */
@@ -391,14 +409,14 @@ export interface Described {
   key: Key | null;
   choices: ChoiceInfo[];
   parts: PartInfo[];
-  labels: Record<string, [string, string]>;
+  labels: [number, string, string, boolean][];
 }
 
 /** The header of a frame with a mesh: see `niwaki.studio.worker.shapes`. */
 export interface Shape {
   kind: "shape";
   id: number;
-  role: "best" | "ghost" | "moving" | "obstacle" | "result";
+  role: "best" | "ghost" | "glimpse" | "moving" | "obstacle" | "prior" | "result";
   number: number;
   key: Key | null;
   detail: "fine" | "light";
@@ -458,6 +476,14 @@ export interface Difference {
   is_picture: boolean;
 }
 
+/** The header of a frame with a byte for each pixel of a sketch, as it is scored: 1 is inside. No size: no sketch. */
+export interface Mask {
+  kind: "mask";
+  id: number;
+  width: number;
+  height: number;
+}
+
 /** A command is done. */
 export interface Done {
   kind: "done";
@@ -471,6 +497,7 @@ export interface File {
   id: number;
   hash: string;
   name: string;
+  path: string;
 }
 
 /** A command was refused or failed. */
@@ -571,6 +598,7 @@ export type Event =
   | Dragged
   | Offered
   | Difference
+  | Mask
   | Done
   | File
   | Failed

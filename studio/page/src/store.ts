@@ -3,7 +3,7 @@
 import { computed, effect, signal, untracked } from "@preact/signals";
 import { CommandError, connect } from "./link";
 import type { Frame } from "./link";
-import type { AskChange, Described, Difference, Event, Export, Eye, Judged, Key, Offer, Outcome, Palette, Picture, Regions, SettingsChange, Shape, TargetAsk, View } from "./messages";
+import type { AskChange, Described, Difference, Event, Export, Eye, Judged, Key, Mask, Offer, Outcome, Palette, Picture, Regions, SettingsChange, Shape, TargetAsk, View } from "./messages";
 import type { Mode, Order } from "./view";
 
 export const view = signal<View | null>(null);
@@ -21,7 +21,15 @@ export const level = signal<string | null>(null);
 /** The clicked primitive. */
 export const part = signal<string | null>(null);
 export const hovered = signal<string | null>(null);
-export const notices = signal<{ id: number; text: string; isError: boolean }[]>([]);
+/** A message: a plain sentence, its details, and perhaps an action that is offered. */
+export interface Notice {
+  id: number;
+  text: string;
+  details: string;
+  isError: boolean;
+  offer?: { label: string; act: () => void };
+}
+export const notices = signal<Notice[]>([]);
 /** A line of text at the foot of the scene: the reason why a dragged part is not at the pointer. */
 export const dragNote = signal("");
 /** The last offered changes of the model's file. */
@@ -51,6 +59,12 @@ export const counts = computed(() => {
   for (const mark of difference.value?.marks ?? []) numbers[mark]++;
   return { covered: numbers[1], missing: numbers[2], outside: numbers[3] };
 });
+/** The sketch as it is scored; null without a sketch. */
+export const mask = signal<{ header: Mask; marks: Uint8Array } | null>(null);
+/** Whether closed outlines of the next sketch mean their inside. */
+export const isInside = signal(true);
+/** Runs of the first models of the list, by reference. */
+export const glimpses = signal<ReadonlyMap<string, [Shape, ArrayBuffer]>>(new Map());
 /** The present camera. */
 export const eye = signal<Eye | null>(null);
 /** Width of the pen, as a share of the view's height. */
@@ -64,6 +78,8 @@ export const theme = signal<"light" | "dark">(
 
 /** The kind of the model: scenes, structures, or a drawing to colour. */
 export const kind = computed(() => view.value?.model?.kind ?? "scene");
+/** Whether the connection was there and is lost. */
+export const isLost = computed(() => view.value !== null && !isOpen.value);
 export const isSearching = computed(() => view.value?.searching != null);
 export const picked = computed(() => view.value?.picked ?? null);
 /** Parts whose hold or release waits for an answer. */
@@ -94,18 +110,38 @@ const pictureListeners: Listener<Picture | Regions>[] = [];
 export const onPicture = (listener: Listener<Picture | Regions>): void => void pictureListeners.push(listener);
 function onFrame(header: Frame, payload: ArrayBuffer): void {
   if (header.kind === "difference") difference.value = { header, marks: new Uint8Array(payload) };
+  else if (header.kind === "mask") mask.value = header.width === 0 ? null : { header, marks: new Uint8Array(payload) };
+  else if (header.kind === "shape" && header.role === "glimpse") glimpses.value = new Map(glimpses.value).set(header.source ?? "", [header, payload]);
   else if (header.kind === "shape") shapeListeners.forEach((listener) => listener(header, payload));
   else pictureListeners.forEach((listener) => listener(header, payload));
 }
 
 // ---- notices
 
+/** Seconds after which a message goes away. */
+const STAY = { note: 5, error: 20, offer: 20 };
 let notes = 0;
-export function note(text: string, isError = false): void {
+/** Shows a message. Its first clause is the sentence that is read; the rest is folded. */
+export function note(text: string, isError = false, offer?: Notice["offer"]): void {
   const id = ++notes;
-  notices.value = [...notices.value.slice(-3), { id, text, isError }];
-  if (!isError) setTimeout(() => dismiss(id), 4000);
+  const [sentence, details] = folded(text);
+  const others = notices.value.filter((notice) => notice.text !== sentence);
+  notices.value = [...others.slice(-2), { id, text: sentence, details, isError, offer }];
+  setTimeout(() => dismiss(id), 1000 * (isError ? STAY.error : offer ? STAY.offer : STAY.note));
 }
+/** Splits a text of the shell into a plain sentence and its details; without details, these are empty. */
+export function folded(text: string): [string, string] {
+  const bare = text.replace(/^error\[[^\]]*\]: /, "").trim();
+  const [first] = bare.split("\n");
+  const clause = first.split(/: |; |\. (?=[A-Z])/)[0];
+  const plain = clause.replace(/`([^`]*)`/g, (_, name: string) => name.split("/").pop()!.replace(/#\d+$/, ""));
+  const sentence = plain.charAt(0).toUpperCase() + plain.slice(1).replace(/\.$/, "") + ".";
+  return [sentence, bare.replace(/\.$/, "").toLowerCase() === sentence.replace(/\.$/, "").toLowerCase() ? "" : bare];
+}
+/** Removes the messages of failures: a step that succeeds, an undo, or a new search has solved or replaced them. */
+const settle = (): void => {
+  if (notices.value.some(({ isError, offer }) => isError || offer)) notices.value = notices.value.filter(({ isError, offer }) => !isError && !offer);
+};
 export const dismiss = (id: number): void => {
   notices.value = notices.value.filter((notice) => notice.id !== id);
 };
@@ -115,9 +151,13 @@ export const dismiss = (id: number): void => {
 function onEvent(event: Event): void {
   if (event.kind === "state") {
     view.value = event.view as View;
-    if (view.value.interrupted) note("The last search was interrupted when the studio ended. Press Grow to start it again.");
+    settle();
+    if (view.value.interrupted) note("Press Grow to start the interrupted search again.");
   } else if (event.kind === "patch" && view.value !== null) {
+    const before = view.value;
     view.value = { ...view.value, ...event.changes };
+    if (before.undo !== view.value.undo || before.redo !== view.value.redo || (event.changes.searching && !before.searching)) settle();
+    onModel(before, view.value);
   } else if (event.kind === "described") {
     described.value = event;
   } else if (event.kind === "palette") {
@@ -129,7 +169,21 @@ function onEvent(event: Event): void {
   }
 }
 
-const link = connect(onEvent, onFrame, (open) => (isOpen.value = open));
+/** The time of this window's last command that can change the model. */
+let chosen = -Infinity;
+const CHOOSING = new Set(["model", "undo", "redo"]);
+export const forgetChoice = (): void => void (chosen = -Infinity);
+/** Tells that another window has chosen another model. */
+function onModel({ model: before }: View, { model: now }: View): void {
+  if (before === null || now === null || before.reference === now.reference || performance.now() - chosen < 10_000) return;
+  const [from, to] = [before, now].map(({ reference }) => reference.replace(/^.*[/:]/, "").replace(/\.py$/, ""));
+  note(`Another window chose ${to}. The results of ${from} are kept: choose it again to see them.`);
+}
+
+const link = connect(onEvent, onFrame, (open) => {
+  isOpen.value = open;
+  if (!open) notices.value = [];
+});
 
 /** Commands that do not depend on held parts; all others wait for pending holds. */
 const INDEPENDENT = new Set<string>(["show", "describe", "judge", "difference", "export", "stop"]);
@@ -137,14 +191,27 @@ let holding: Promise<unknown> = Promise.resolve();
 
 /** Sends a command, and shows the message of a failure. */
 export async function tell(command: Parameters<typeof link.send>[0]): Promise<Event | undefined> {
+  if (CHOOSING.has(command.kind)) chosen = performance.now();
   if (!INDEPENDENT.has(command.kind) && pending.peek().size > 0) await holding;
   try {
     return await link.send(command);
   } catch (problem) {
-    if (problem instanceof CommandError) note(problem.message, true);
+    // The page itself shows that the studio does not answer.
+    if (problem instanceof CommandError && problem.code !== "closed") note(problem.message, true);
     return undefined;
   }
 }
+
+/** Whether a run of the model is shown, since there is no result yet. */
+export const hasPrior = signal(false);
+export const isPrior = computed(() => hasPrior.value && picked.value === null && !isSearching.value);
+/** What a search still needs, in words; empty if it can start. */
+export const missing = computed(() => {
+  const now = view.value;
+  if (now === null || now.model === null) return "Choose a model first.";
+  if (kind.value !== "scene" || now.model.draws !== null || target.value !== null || now.ask.sketch != null) return "";
+  return "Choose what to grow into: a shape, your own mesh, or a drawing with the pen.";
+});
 
 // ---- actions of buttons and keys
 
@@ -186,14 +253,35 @@ export function avoid(solid: TargetAsk): void {
   ask({ obstacles: [...obstacles, solid] });
   activeObject.value = { name: `obstacle ${obstacles.length}`, mode: "translate" };
 }
-/** The label of an address; the address itself where the described result has no label of it. */
-export const labelOf = (address: string): string => described.value?.labels?.[address]?.[0] ?? address;
-/** The label of an address as it is read below the label of a call around it. */
+/** The numbers of the described result's labels, by the number around and the component of addresses. */
+const labelled = computed(
+  () => new Map((described.value?.labels ?? []).map(([around, component], k) => [`${around} ${component}`, k])),
+);
+/** The steps of a label, outermost first; the components of an address that the described result does not have. */
+function stepsOf(address: string): string[] {
+  const steps: string[] = [];
+  const components = address.split("/");
+  let around = -1;
+  for (const component of components) {
+    const number = labelled.value.get(`${around} ${component}`);
+    if (number === undefined) return components;
+    const [, , text, isJoined] = described.value!.labels[number];
+    if (isJoined) steps.pop();
+    steps.push(text);
+    around = number;
+  }
+  return steps;
+}
+/** A text with a capital at its start. */
+export const capital = (text: string): string => text.slice(0, 1).toUpperCase() + text.slice(1);
+/** The label of an address. */
+export const labelOf = (address: string): string => capital(stepsOf(address).join(" › "));
+/** The label of an address as it is read below the label of a call around it: without the steps that both have. */
 export function labelBelow(address: string, call: string): string {
-  const [whole, last] = described.value?.labels?.[address] ?? [address, address.split("/").pop()!];
-  const head = `${labelOf(call)} › `;
-  if (call !== "" && whole.startsWith(head)) return whole.slice(head.length);
-  return address.slice(call === "" ? 0 : call.length + 1).includes("/") ? whole : last;
+  const [steps, around] = [stepsOf(address), call === "" ? [] : stepsOf(call)];
+  let same = 0;
+  while (same < steps.length - 1 && steps[same] === around[same]) same++;
+  return steps.slice(same).join(" › ");
 }
 export function select(address: string | null): void {
   part.value = address;
@@ -213,9 +301,18 @@ export async function propose(): Promise<void> {
   const answer = await tell({ kind: "propose" });
   if (answer?.kind !== "offered") return;
   offers.value = answer.offers;
-  if (answer.offers.length === 0) note("The defaults cannot be changed: the model's file does not write them as numbers or texts.");
+  if (answer.offers.length === 0) note("The model's file does not write these defaults as numbers or texts.");
 }
 export function reroll(name: string, count: number): void {
+  const holder = [...heldParts.value].find((part) => name === part || name.startsWith(`${part}/`));
+  if (holder !== undefined) {
+    const free = async () => {
+      await tell({ kind: "free", parts: [holder] });
+      reroll(name, count);
+    };
+    note(`${holder.split("/").pop()} is held, so it keeps its form.`, false, { label: "Free it and re-roll", act: () => void free() });
+    return;
+  }
   void tell({ kind: "reroll", part: name, count, strength: count > 1 ? strength.value : null });
 }
 export async function download(format: Export["format"]): Promise<void> {
@@ -227,7 +324,7 @@ export async function download(format: Export["format"]): Promise<void> {
   anchor.href = `/file/${file.hash}`;
   anchor.download = file.name;
   anchor.click();
-  note(`Exported ${file.name}`);
+  note(`Saved ${file.name} in your downloads.\nThe session keeps it: ${file.path}`);
 }
 /** The largest upload that the studio accepts, bytes. */
 const UPLOAD = 64 * 2 ** 20;
@@ -241,10 +338,10 @@ export async function upload(file: File, isObstacle = false): Promise<void> {
   const answer = await fetch(`/upload?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
   const report = await answer.json();
   if (!answer.ok) {
-    note(`${file.name}: ${report.text}`, true);
+    note(`${file.name} cannot be used.\n${report.text}`, true);
     return;
   }
-  for (const text of report.notes as string[]) note(`${file.name}: ${text}`);
+  for (const text of report.notes as string[]) note(`${text}\n${file.name}`);
   if (report.reference) void tell({ kind: "model", reference: report.reference });
   else if (isObstacle) avoid({ source: report.source });
   else ask({ target: { source: report.source } });

@@ -207,3 +207,23 @@ def test_images_without_flat_regions_give_an_error(tmp_path: Path) -> None:
         assert caught.value.code == code
     with pytest.raises(FileError, match="file-missing"):
         Drawing.load(tmp_path / "none.svg")
+
+
+@pytest.mark.parametrize("margin", [0, 3, 12])
+def test_the_background_is_found_inside_a_frame_without_a_region(tmp_path: Path, margin: int) -> None:
+    side = 100 - 2 * margin
+    picture = drawing(
+        tmp_path,
+        f'<rect class="sky" x="{margin}" y="{margin}" width="{side}" height="{side}"/>'
+        '<rect class="house" x="30" y="30" width="40" height="40"/>',
+    )
+    assert picture.background == picture.names.index("sky")
+
+
+def test_a_figure_that_touches_little_of_the_edge_is_no_background(tmp_path: Path) -> None:
+    picture = drawing(
+        tmp_path,
+        '<rect class="stem" x="45" y="40" width="10" height="60"/>'
+        '<rect class="leaf" x="20" y="20" width="40" height="20"/>',
+    )
+    assert picture.background is None

@@ -232,7 +232,9 @@ SHAPES = {
     "limb": _engine.shape("limb", (0, 0, 0), (0, 2, 0.3), 0.3, 0.2),
     "box": _engine.shape("box", (0, 0, 0), (1, 2, 3)),
     "extrusion": _engine.shape("extrude", [(0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (0, 1)], 2.0, taper=0.5),
-    "twisted extrusion": _engine.shape("extrude", [(0, 0), (2, 0), (1, 0.5), (0, 2)], 2.0, twist=3.0, taper=0.0),
+    "twisted extrusion": _engine.shape(
+        "extrude", [(0, 0), (2, 0), (1, 0.5), (0, 2)], 2.0, twist=3.0, taper=0.0
+    ),
     "revolution": _engine.shape("revolve", [(0, 0), (1, 0), (1.2, 1), (1, 1), (0.8, 0.2), (0, 0.2)]),
     "sweep": _engine.shape("sweep", [(0, 0), (0.2, 0), (0, 0.2)], [(0, 0, 0), (1, 0, 0), (1, 1, 1)]),
     "hull": _engine.shape("hull", [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (0.1, 0.1, 0.1)]),

@@ -87,6 +87,16 @@ def colored() -> None:
 
 
 @nw.model
+def deep() -> None:
+    nw.emit(nw.extrude([(0, 0, 0), (1, 0, 0), (0, 0, 1)], 1.0))
+
+
+@nw.model
+def crossed() -> None:
+    nw.emit(nw.extrude([(0, 0), (1, 1), (1, 0), (0, 1)], 1.0))
+
+
+@nw.model
 def frequent() -> int:
     return nw.poisson(1e18)
 
@@ -102,6 +112,19 @@ def frequent() -> int:
         ),
         (_limb((0, 1, 0), (0, 0, 0)), ["the start normal is [0.0, 0.0, 0.0]"], []),
         (colored, ["`color` of `box`", "red, green and blue from 0 to 1", "`hsv`"], ["`center`", "`size`"]),
+        (
+            deep,
+            [
+                "`polygon` of `extrude` takes vectors of 2 components, found 3",
+                "is a list of pairs of numbers",
+            ],
+            ["three"],
+        ),
+        (
+            crossed,
+            ["the side from point 0 to point 1 meets the side from point 2 to point 3"],
+            ["argument"],
+        ),
         (frequent, ["`rate` of poisson is 1e18, expected a number from 0 to 1e15", "`min`"], []),
     ],
     ids=[
@@ -109,6 +132,8 @@ def frequent() -> int:
         "a limb to nowhere",
         "a normal of length 0",
         "a color as text",
+        "a polygon of points of space",
+        "a polygon that crosses itself",
         "a rate of 1e18",
     ],
 )

@@ -181,4 +181,4 @@ def test_arguments_are_checked(bad: dict[str, Any]) -> None:
 def test_a_round_is_summed_up() -> None:
     now = Round(0, similarities=[0.05, 0.5, 0.9], scores=[-3.0, -2.0, -1.0])
     assert now.summary() == pytest.approx({"mean": 1.45 / 3, "median": 0.5, "p10": 0.14, "stumps": 1 / 3})
-    assert guides.report.sentence(now.summary()) == "mean 0.483, median 0.500, worst tenth 0.140, stumps 33%"
+    assert guides.report.sentence(now.summary()) == "mean 0.483, median 0.500, worst tenth 0.140, stumps 33 %"

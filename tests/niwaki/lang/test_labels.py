@@ -2,9 +2,8 @@
 
 import pkgutil
 
-import pytest
-
 import niwaki as nw
+import pytest
 from niwaki import gallery, search
 from niwaki.errors import ModelError
 from niwaki.lang import nouns
@@ -18,12 +17,12 @@ MODELS = [m.name.replace("_", "-") for m in pkgutil.iter_modules(gallery.__path_
 
 def labelled(model, seeds=range(6)):
     """Labels of all addresses of some runs."""
-    found = {}
+    labels = {}
     for seed in seeds:
         best = nw.run(model, seed=seed).best
         addresses = [*best.choices, *(part.address for part in best.parts)]
-        found |= {address: best.label(address) for address in addresses}
-    return found
+        labels |= {address: best.label(address) for address in addresses}
+    return labels
 
 
 @nw.model
@@ -70,7 +69,7 @@ def height():
 
 
 def test_labels_say_what_a_choice_decides():
-    found = labelled(village)
+    labels = labelled(village)
     expected = {
         "bernoulli": "Tower?",
         "bernoulli#1": "No moat?",
@@ -95,11 +94,11 @@ def test_labels_say_what_a_choice_decides():
         "moat/bridge/_[1]/rail": "Moat › bridge › rail 2",
         "uniform#4": "Village",
     }
-    assert {address: found.get(address) for address in expected} == expected
+    assert {address: labels.get(address) for address in expected} == expected
 
 
 @nw.model
-def given(label_of=1):
+def signposts(label_of=1):
     x = nw.uniform(0.0, 1.0, label="east side")
     leg(0.1, label="left leg")
     nw.future(leg, 0.2, label="right leg")
@@ -120,15 +119,15 @@ def named(x, label):
 
 
 def test_a_given_label_is_a_label_and_nothing_else():
-    found = labelled(given, [1])
-    assert found == {
+    labels = labelled(signposts, [1])
+    assert labels == {
         "x": "East side",
-        "leg/uniform": "Left leg › height",
-        "leg#1/uniform": "Right leg › height",
+        "leg/uniform": "Left leg › length",
+        "leg#1/uniform": "Right leg › length",
         "y": "Y of it",
         "y#1": "Roof",
-        "i[0]/leg/uniform": "Back leg 1 › height",
-        "i[1]/leg/uniform": "Back leg 2 › height",
+        "i[0]/leg/uniform": "Back leg 1 › length",
+        "i[1]/leg/uniform": "Back leg 2 › length",
         "named/uniform": "Named › named",
         "leg/emit": "Left leg › cylinder",
         "leg#1/emit": "Right leg › cylinder",
@@ -137,8 +136,8 @@ def test_a_given_label_is_a_label_and_nothing_else():
         "i[1]/leg/emit": "Back leg 2 › cylinder",
     }
     # Plain Python makes the same run, and `choose` draws as without a label.
-    best = nw.run(given, seed=1).best
-    assert nw.run_python(given, choices=best.choices).choices == best.choices
+    best = nw.run(signposts, seed=1).best
+    assert nw.run_python(signposts, choices=best.choices).choices == best.choices
     assert best.families["y#1"] == "discrete_uniform"
 
 
@@ -178,15 +177,15 @@ def bar(at):
 
 
 def test_equal_labels_are_numbered_where_a_run_can_have_them_together():
-    found = labelled(rows)
-    assert [found[address] for address in ("i[0]/pane/emit", "k[1]/pane/emit", "pane/emit")] == [
+    labels = labelled(rows)
+    assert [labels[address] for address in ("i[0]/pane/emit", "k[1]/pane/emit", "pane/emit")] == [
         "First pane 1 › box",
         "Second pane 2 › box",
         "Pane › box",
     ]
-    assert found["row[1]/bar/emit"] == "Row 2 › bar › box"
+    assert labels["row[1]/bar/emit"] == "Row 2 › bar › box"
     # A run has the first or the second, and the third.
-    assert (found["depth"], found["depth#1"], found["depth#2"]) == ("Depth 1", "Depth 1", "Depth 2")
+    assert (labels["depth"], labels["depth#1"], labels["depth#2"]) == ("Depth 1", "Depth 1", "Depth 2")
 
 
 @pytest.mark.parametrize("name", [name for name in MODELS if name not in {"data", "furnishings"} | SLOW])

@@ -103,10 +103,15 @@ def test_points_of_a_solid_move_with_its_list() -> None:
         {}, {choice.address for choice in sample._trace.choices}
     )
     names = [path for _, path, *_ in positions.movables]
-    prism, pile = (next(n for n, part in enumerate(positions.parts) if part[0] == name) for name in ("prism", "hull"))
+    prism, pile = (
+        next(n for n, part in enumerate(positions.parts) if part[0] == name) for name in ("prism", "hull")
+    )
     assert place(positions, prism, 0, (0.5, 0.5, 0.5)) == pytest.approx((wide, 2.0, 5.0))
     slopes = positions.slopes(prism, 0, (0.5, 0.5, 0.5))
-    assert slopes[:, names.index("wide")] == pytest.approx((1, 0, 0)) and not slopes[:, names.index("deep")].any()
+    assert (
+        slopes[:, names.index("wide")] == pytest.approx((1, 0, 0))
+        and not slopes[:, names.index("deep")].any()
+    )
     frame = np.array(positions.frame(pile, 0))
     for corner in ((1, 2, 3), (4, 0, 0), (0, 0, 6)):
         x, y, z = rotation((0, 0, 1), angle) * nw.vec(*corner)
@@ -189,7 +194,7 @@ def test_the_end_of_a_range_is_the_reason() -> None:
     sample = nw.run(post, seed=1).best
     drag = sample.drag("top", (0.0, 0.5, 3.0))
     assert not drag.answers
-    assert "`deep` is at the end of its range (0 to 2)" in drag.reason
+    assert '"Deep" is at the end of its range (0 to 2)' in drag.reason
     assert drag.nearest is not None
     assert drag.nearest.distance == pytest.approx(1.0, abs=1e-2)
     assert drag.nearest.sample.choices["deep"] <= 2.0
@@ -212,7 +217,7 @@ def test_held_choices_stay_to_the_bit_and_are_the_reason_where_all_are_held() ->
         assert drag.best.sample.choices["b"] == b
     held = sample.drag("top", (a + b + 1.0, 0.5, deep), hold=["*"])
     assert held.best is None
-    assert held.reason == "no free choice moves `top`: all 3 choices that move it are held (`a`, `b`, `deep`)"
+    assert held.reason == 'no free choice moves "Top": all 3 choices that move it are held ("A", "B", "Deep")'
     # Values by address are those of the run, and hold the same.
     expected = sample.drag("top", (a + b + 0.1, 0.5, deep), hold=["b"]).answers
     for hold in ("b", {"b": b}, sample.held("b")):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import niwaki as nw
 import pytest
+from niwaki.lang.labels import Labels
 from niwaki.result.info import Losses, restored_info, stored_info
 
 
@@ -41,13 +42,13 @@ def test_each_particle_that_died_is_counted_once_by_what_it_broke():
 def test_the_two_parts_are_named_with_their_lines():
     losses = searched(particles=60).info.losses
     (blame,) = losses.blame
-    assert (blame.part.name, blame.other.name) == ("cable", "road")
+    assert (blame.part.name(Labels()), blame.other.name(Labels())) == ("cable", "road")
     assert blame.runs == losses.looked_at == losses.total
     lines = [blame.part.span[0], blame.other.span[0]]
     count = losses.total
     assert str(losses) == (
         f"lost on the way: {count} partial runs, by no_self_intersection ({count}); "
-        f"`cable` (line {lines[0]}) runs into `road` (line {lines[1]}) in {count} of {count}"
+        f'"cable" (line {lines[0]}) runs into "road" (line {lines[1]}) in {count} of {count}'
     )
     assert lines[0] == lines[1] + 1
 
@@ -79,7 +80,7 @@ def test_they_are_stored_with_the_statistics():
 def test_a_search_for_the_best_has_them_too():
     settings = {"method": nw.improve(rounds=2), "score": nw.no_self_intersection(), "seed": 1}
     result = nw.run(crossing, 1.0, **settings)
-    assert result.info.losses.blame[0].part.name == "cable"
+    assert result.info.losses.blame[0].part.name(Labels()) == "cable"
     assert result.info == nw.run(crossing, 1.0, **settings, threads=1).info
     assert restored_info(stored_info(result.info)) == result.info
 

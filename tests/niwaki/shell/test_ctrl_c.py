@@ -15,7 +15,7 @@ from typing import Any
 
 import niwaki as nw
 import pytest
-from niwaki import color, guides
+from niwaki import color, draw, guides
 from niwaki.shell import compare, guide, letters, progress
 from niwaki.shell.main import app
 from PIL import Image
@@ -163,3 +163,24 @@ def test_a_part_whose_growth_is_stopped_is_none(place: Path, monkeypatch: pytest
     monkeypatch.setenv("PRESSED", "1")
     with pytest.raises(KeyboardInterrupt):
         sample.regrow("arm[1]", 10, seed=1)
+
+
+def test_ctrl_c_while_pictures_are_drawn_keeps_drafts_and_files(
+    place: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn = draw.picture.picture
+
+    def pressed(*scenes: Any, **settings: Any) -> Any:
+        if settings.get("samples") != 1:
+            raise KeyboardInterrupt
+        return drawn(*scenes, **settings)
+
+    for module in (draw.picture, draw.sheet):
+        monkeypatch.setattr(module, "picture", pressed)
+    stopped("grow garden.py:tower --target gallery:ship --particles 10 --voxel 1 --runs 2 --seed 1 -o out")
+    assert whole(place / "out") == ["best.glb", "best.png", "run.json", "sheet.png"]
+    assert set(json.loads((place / "out/run.json").read_bytes())["files"]) == {
+        "best.glb",
+        "best.png",
+        "sheet.png",
+    }

@@ -14,7 +14,7 @@ from niwaki.draw.scene import Scene
 from niwaki.errors import NiwakiError
 from niwaki.shell import arguments, selection
 from niwaki.shell.main import app
-from niwaki.shell.references import find
+from niwaki.shell.references import find, names_in
 from PIL import Image
 from typer.testing import CliRunner
 
@@ -187,8 +187,8 @@ def test_a_replay_of_a_changed_model_keeps_what_fits(place: Path) -> None:
     total = len(before)
     assert done.stdout.splitlines()[:3] == [
         f"{total - 1} of {total} choices fit",
-        "  not possible: `hat/side`",
-        "  drawn: `hat/side`, `hat/tilt`",
+        "  not possible: Hat › side",
+        "  drawn: Hat › side, Hat › tilt",
     ]
     after = choices("b")
     assert {k: v for k, v in after.items() if not k.startswith("hat")} == {
@@ -278,3 +278,37 @@ def test_the_model_of_a_file_is_its_own_where_it_has_one(place: Path) -> None:
     )
     with pytest.raises(NiwakiError, match="defines fly, live"):
         find("two.py")
+
+
+def test_a_result_alone_gives_the_model_the_target_and_the_settings_of_a_new_search(place: Path) -> None:
+    grown("--rounds", "2", "-o", "a")
+    before, search = choices("a"), data("a")["search"]
+    # A run of the model's file is not needed, and it may be gone.
+    Path("garden.py").rename("gone.py")
+    done = run("grow", "--from", "a/run.json", "--reroll", "hat", "--no-picture", "-o", "b", "--seed", "5")
+    assert done.exit_code == 0, done.output
+    after = choices("b")
+    hat = [address for address in before if address.startswith("hat/")]
+    assert all(after[address] != before[address] for address in hat)
+    assert {k: v for k, v in after.items() if k not in hat} == {
+        k: v for k, v in before.items() if k not in hat
+    }
+    again = data("b")["search"]
+    assert (again["score"], again["method"]) == (search["score"], search["method"])
+    held = ("grow", "--from", "a/run.json", "--hold", "hat", "--no-picture", "--rounds", "1", "-o", "c")
+    assert run(*held).exit_code == 0
+    assert data("c")["search"]["score"] == search["score"]
+    assert data("c")["search"]["method"] != search["method"]
+    assert all(choices("c")[address] == before[address] for address in hat)
+
+
+def test_of_several_models_of_a_file_the_one_with_its_name_is_meant(place: Path) -> None:
+    (place / "tower.py").write_text(MODEL)
+    assert find("tower.py").name.endswith("tower.py:tower")
+    assert run("show", "tower.py", "--runs", "1", "--quick", "-o", "tower.png").exit_code == 0
+    error = run("show", "garden.py").exception
+    assert isinstance(error, NiwakiError) and "garden.py:tower" in str(error)
+    names = [str(place / "garden.py") + f":{name}" for name in ("tower", "never", "number")]
+    assert names_in(str(place / "garden.py")) == names
+    (place / "one.py").write_text(MODEL.partition("@model\ndef never")[0])
+    assert names_in("one.py") == ["one.py"] and names_in("one.py:tower") == ["one.py:tower"]

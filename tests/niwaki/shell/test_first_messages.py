@@ -137,7 +137,7 @@ def test_losses_are_named_when_some_runs_survive(place: Path) -> None:
     with pytest.warns(UserWarning, match="runs became impossible") as record:
         run(*words, "--runs", "8", "--seed", "1")
     lost = next(str(warning.message) for warning in record if "became impossible" in str(warning.message))
-    assert "`cable` (line 6) runs into `road` (line 5) in 1 of 1; put parts" in lost
+    assert '"cable" (line 6) runs into "road" (line 5) in 1 of 1; put parts' in lost
     assert "put parts that belong together into one `emit`" in lost and "particles" not in lost
 
 
@@ -166,8 +166,7 @@ def test_a_search_that_fails_draws_what_collides_in_red(place: Path) -> None:
     done = run("grow", "first.py:crowded", "--target", "box.obj", "--seed", "1", "--quick", "-o", "bad")
     assert getattr(done.exception, "code", None) == "everything-impossible"
     assert (
-        "bad/impossible.png shows such a run; the parts in red make it impossible: `cable`, `road`"
-        in done.stderr
+        "bad/impossible.png shows such a run; the parts in red make it impossible: Cable, Road" in done.stderr
     )
     with Image.open("bad/impossible.png") as picture:
         red, green, blue = np.asarray(picture.convert("RGB"), dtype=int).reshape(-1, 3).T

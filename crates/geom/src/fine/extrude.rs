@@ -3,10 +3,11 @@
 //! The straight prism is rounded, and then each row of its vertices is turned and scaled. Normals of straight prisms are exact, those of
 //! twisted ones are of their faces, because a strong twist turns the normals of a surface faster than any number of its faces.
 
+use super::corners::{Rounded, room, rounded as corners_of};
 use super::crease::{SHARP, creased};
 use super::mesh::{ARC, FineMesh, ROUND, unit_or};
 use crate::mesh::TriMesh;
-use crate::polygon::{Pair, Rounded, room, rounded as corners_of, triangles};
+use crate::polygon::{Pair, triangles};
 use crate::vector::vec3;
 use std::f64::consts::{FRAC_PI_2, TAU};
 

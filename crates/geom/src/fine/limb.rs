@@ -18,8 +18,8 @@ const LATITUDES: usize = 5;
 /// The largest slope (radius for each unit of length) of a side that is shaded as a tube; steeper sides are cones.
 const STEEP: f64 = 0.5;
 
-/// The limb between two rings.
-pub fn domed(start: &Ring, end: &Ring) -> FineMesh {
+/// The limb between two rings. It begins with half a ball, if it is `round` there.
+pub fn domed(start: &Ring, end: &Ring, round: bool) -> FineMesh {
     let mut mesh = FineMesh::default();
     let slope = (start.radius - end.radius) / (end.center - start.center).norm().max(1e-12);
     let lift = if slope.abs() > STEEP { slope } else { 0.0 };
@@ -33,11 +33,31 @@ pub fn domed(start: &Ring, end: &Ring) -> FineMesh {
         high = next;
     }
 
+    if round {
+        ball(&mut mesh, start);
+        dome(&mut mesh, end, high);
+        return mesh;
+    }
     // The base is flat.
     let base = row(&mut mesh, start, |out| (start.center + out * start.radius, start.normal * -1.0));
     close(&mut mesh, &base, start.center, start.normal * -1.0);
     dome(&mut mesh, end, high);
     mesh
+}
+
+/// Half a ball below the ring `start`, over a row of its own: at the rim the normals of ball and tube differ.
+fn ball(mesh: &mut FineMesh, start: &Ring) {
+    let mut above = row(mesh, start, |out| (start.center + out * start.radius, out));
+    for latitude in 1..LATITUDES {
+        let (sin, cos) = (std::f64::consts::FRAC_PI_2 * latitude as f64 / LATITUDES as f64).sin_cos();
+        let below = row(mesh, start, |out| {
+            let away = out * cos + start.normal * -sin;
+            (start.center + away * start.radius, away)
+        });
+        join(mesh, &below, &above);
+        above = below;
+    }
+    close(mesh, &above, start.center + start.normal * -start.radius, start.normal * -1.0);
 }
 
 /// Closes the base with a fan about `middle`.

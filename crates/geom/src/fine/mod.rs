@@ -2,6 +2,7 @@
 //!
 //! - `mesh.rs`    triangles with normals
 //! - `boxes.rs`   rounded boxes, tapered or not
+//! - `corners.rs` polygons with rounded corners
 //! - `extrude.rs` rounded prisms over polygons, twisted and tapered
 //! - `revolve.rs` cylinders and cones with rounded rims
 //! - `limb.rs`    smooth tubes with a domed end
@@ -9,6 +10,7 @@
 //! - `crease.rs`  normals of any mesh, sharp at large angles
 
 pub(crate) mod boxes;
+pub(crate) mod corners;
 pub(crate) mod crease;
 pub(crate) mod extrude;
 pub(crate) mod limb;
@@ -32,12 +34,12 @@ mod tests {
     #[test]
     fn all_kinds() {
         let plain = Look::default();
-        let sharp = Look { bevel: Some(0.0), ..plain };
+        let sharp = Look { bevel: Some(0.0), ..plain.clone() };
         let (o, size) = (vec3(1.0, 2.0, 3.0), vec3(2.0, 1.0, 4.0));
         sound(&Shape::cuboid(o, size, &plain).unwrap(), 8.0, 0.02);
         sound(&Shape::cuboid(o, size, &sharp).unwrap(), 8.0, 1e-9);
         sound(
-            &Shape::cuboid(o, vec3(1.0, 1.0, 1.0), &Look { bevel: Some(1.0), ..plain }).unwrap(),
+            &Shape::cuboid(o, vec3(1.0, 1.0, 1.0), &Look { bevel: Some(1.0), ..plain.clone() }).unwrap(),
             std::f64::consts::FRAC_PI_6,
             0.03,
         );

@@ -28,7 +28,7 @@ pub fn grown(frames: &[Frame; 3], onto: Option<&Bark>) -> FineMesh {
     let ring = |f: &Frame| Ring { center: f.center, normal: f.forward, radius: f.radius };
     let (start, end) = (ring(&frames[0]), ring(&frames[2]));
     match onto.and_then(|bark| Some((bark, bark.down(start.center)?))) {
-        None => domed(&start, &end),
+        None => domed(&start, &end, false),
         Some((bark, down)) => collared(&start, &end, bark, down),
     }
 }

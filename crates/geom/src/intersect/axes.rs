@@ -50,6 +50,14 @@ pub fn overlap(a: &Convex<'_>, b: &Convex<'_>, tolerance: f64) -> bool {
     true
 }
 
+/// True when the point is in the solid, or at most `tolerance` away from it along each of its face normals.
+pub fn reaches(a: &Convex<'_>, p: Vec3, tolerance: f64) -> bool {
+    a.normals().iter().all(|normal| {
+        let ((low, high), along) = (span(a.corners(), *normal), p.dot(*normal));
+        low - tolerance <= along && along <= high + tolerance
+    })
+}
+
 /// True when the solids overlap by no more than `tolerance` along `axis`. The loop over the corners of the second solid ends
 /// as soon as some are too far inside, from either end.
 fn apart(a: &Convex<'_>, b: &Convex<'_>, axis: Vec3, tolerance: f64) -> bool {

@@ -1,11 +1,9 @@
 //! Containment of a point in a closed surface, and of a solid in another whose surface it does not cross.
-//!
-//! The winding number of a closed mesh around a point is the sum of its triangles' solid angles over 4 pi (van Oosterom
-//! & Strackee 1983): zero outside, and not zero inside, for either orientation of the mesh.
 
 use crate::mesh::TriMesh;
 use crate::solids::shape::Shape;
 use crate::vector::Vec3;
+use crate::winding::{solid_angle, winds_around};
 use std::f64::consts::TAU;
 
 /// The depth of a sample below a face, as a share of the solid's thickness.
@@ -19,12 +17,6 @@ pub fn contains(shape: &Shape, point: Vec3) -> bool {
 /// True when a closed mesh contains `point`.
 fn inside_mesh(mesh: &TriMesh, point: Vec3) -> bool {
     winds_around(mesh.corners(), point)
-}
-
-/// True when closed triangles wind around `point`.
-pub(crate) fn winds_around(triangles: impl Iterator<Item = [Vec3; 3]>, point: Vec3) -> bool {
-    let angle: f64 = triangles.map(|t| solid_angle(t.map(|p| p - point))).sum();
-    angle.abs() > TAU
 }
 
 /// The part of each triangle: triangles that share the place of a vertex are of one part.
@@ -53,13 +45,6 @@ pub fn inside_part(mesh: &TriMesh, parts: &[usize], point: Vec3) -> bool {
         angles[*part] += solid_angle(t.map(|p| p - point));
     }
     angles.iter().any(|angle: &f64| angle.abs() > TAU) || angles.iter().sum::<f64>().abs() > TAU
-}
-
-/// Solid angle of a triangle seen from the origin, steradians, positive when its inner side faces the origin.
-fn solid_angle([a, b, c]: [Vec3; 3]) -> f64 {
-    let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
-    let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-    2.0 * a.dot(b.cross(c)).atan2(below)
 }
 
 /// True when a point just below a face of one shape lies inside the other.

@@ -15,6 +15,7 @@ pub mod inside;
 pub mod triangles;
 
 use crate::convex::Convex;
+use crate::solids::Solid;
 use crate::solids::primitive::Primitive;
 use crate::solids::shape::Shape;
 use boxes::Turned;
@@ -33,6 +34,8 @@ pub enum Rule {
 
 /// Share of the thinner solid's thickness by which solids must overlap.
 pub const SOLID_TOLERANCE: f64 = 1e-6;
+/// The distance from a shape at which a round joint lies in it, as a share of the joint's radius.
+const JOINT: f64 = 1e-6;
 /// The share of overlap below which convex solids are apart under the surface rule, without a test of triangles.
 const APART: f64 = 1e-9;
 
@@ -41,9 +44,25 @@ pub fn primitives_intersect(a: &Primitive, b: &Primitive, rule: Rule) -> bool {
     a.shapes().iter().any(|s| b.shapes().iter().any(|t| intersects(s, t, rule)))
 }
 
+/// True when a limb begins in the other shape with a round joint: such neighbours may overlap.
+fn are_joined(a: &Shape, b: &Shape) -> bool {
+    let begins_in = |limb: &Shape, other: &Shape| match limb.solid() {
+        Solid::Limb(solid) if solid.round => {
+            let start = limb.placement().apply(solid.rings[0].center);
+            // A limb at the end of another begins on the last face.
+            match other.convex() {
+                Some(convex) => axes::reaches(&convex, start, JOINT * solid.rings[0].radius),
+                None => inside::contains(other, start),
+            }
+        }
+        _ => false,
+    };
+    begins_in(a, b) || begins_in(b, a)
+}
+
 /// True when the shapes intersect. Every step is symmetric in floating point too, so (b, a) has the same answer.
 pub fn intersects(a: &Shape, b: &Shape, rule: Rule) -> bool {
-    if !a.aabb().meets(b.aabb()) {
+    if !a.aabb().meets(b.aabb()) || are_joined(a, b) {
         return false;
     }
     let thickness = a.thickness().min(b.thickness());

@@ -139,6 +139,11 @@ impl Measured for Arc<Extrusion> {
         frame_within(self, placement)
     }
 
+    fn mirrored(&self) -> Arc<Extrusion> {
+        let polygon = self.polygon.iter().map(|[x, z]| [-x, *z]).collect();
+        Arc::new(Extrusion { polygon, twist: -self.twist, ..**self })
+    }
+
     fn fine(&self, bevel: Option<f64>) -> FineMesh {
         let section = extrude::Section::of(self.height, self.twist, self.taper);
         extrude::rounded(&self.corners(), &section, bevel.unwrap_or(BEVEL))

@@ -57,6 +57,10 @@ impl Measured for Arc<Hull> {
         Placement { translation: around.center(), ..*placement }
     }
 
+    fn mirrored(&self) -> Arc<Hull> {
+        Arc::new(Hull { points: self.points.iter().map(|point| point.mirrored()).collect() })
+    }
+
     fn fine(&self, _bevel: Option<f64>) -> FineMesh {
         let triangles = hull(&self.points).map(|topology| topology.triangles).unwrap_or_default();
         match TriMesh::new(self.points.to_vec(), triangles) {

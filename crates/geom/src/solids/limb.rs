@@ -1,7 +1,7 @@
 //! Limbs: bent, tapered segments between two rings: `limb`.
 
 use super::measured::{Checks, Measured, Tone};
-use super::word::kinds::{Length, Point};
+use super::word::kinds::{Joint, Length, Point};
 use super::word::{Word, between, direction, plain};
 use crate::convex::Coarse;
 use crate::error::{GeomError, bad_shape as bad};
@@ -26,6 +26,9 @@ pub struct Limb {
     pub rings: Box<[Ring; 2]>,
     /// The number of sides of both rings.
     pub sides: usize,
+    /// Whether it begins with a ball, at which it may bend away from the part that it begins in.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub round: bool,
 }
 
 impl Measured for Limb {
@@ -48,6 +51,10 @@ impl Measured for Limb {
     fn hull(&self, placement: &Placement) -> Option<Coarse> {
         let points = self.rings.iter().flat_map(|ring| ring.vertices(self.sides));
         let vertices: Vec<Vec3> = points.map(|p| placement.apply(p)).collect();
+        if self.round {
+            let joint = self.joint().map(|p| placement.apply(p));
+            return Hull::around(vertices.into_iter().chain(joint).collect()).map(Coarse::new);
+        }
         let hull = match band(&vertices, self.sides) {
             Some(topology) => Hull::new(vertices, Arc::new(topology)),
             // The rings cut each other's plane.
@@ -70,8 +77,26 @@ impl Measured for Limb {
         placement.after(&Placement { rotation: Mat3 { columns }, translation: center })
     }
 
+    fn mirrored(&self) -> Limb {
+        let mirrored =
+            |ring: &Ring| Ring { center: ring.center.mirrored(), normal: ring.normal.mirrored(), ..*ring };
+        Limb { rings: Box::new(self.rings.each_ref().map(mirrored)), ..self.clone() }
+    }
+
     fn fine(&self, _bevel: Option<f64>) -> FineMesh {
-        limb::domed(&self.rings[0], &self.rings[1])
+        limb::domed(&self.rings[0], &self.rings[1], self.round)
+    }
+}
+
+impl Limb {
+    /// Points of the half ball below its first ring: a ring half way down, and the pole.
+    fn joint(&self) -> impl Iterator<Item = Vec3> + '_ {
+        const H: f64 = std::f64::consts::FRAC_1_SQRT_2;
+        let start = &self.rings[0];
+        let down = start.normal * -start.radius;
+        let low = Ring { center: start.center + down * H, radius: start.radius * H, ..*start };
+        let points: Vec<Vec3> = low.vertices(self.sides).collect();
+        points.into_iter().chain([start.center + down])
     }
 }
 
@@ -92,7 +117,7 @@ pub(super) fn bent(
     let normal = |normal: Option<Vec3>, name| normal.map_or_else(along, |normal| direction(normal, name));
     let start = Ring { center: start, normal: normal(normals.0, "start normal")?, radius: radii.0 };
     let end = Ring { center: end, normal: normal(normals.1, "end normal")?, radius: radii.1 };
-    Ok(Limb { rings: Box::new([start, end]), sides: SIDES })
+    Ok(Limb { rings: Box::new([start, end]), sides: SIDES, round: false })
 }
 
 word! {
@@ -110,6 +135,8 @@ word! {
         start_normal: Option<Point>,
         /// Their directions; from `start` to `end` when left out.
         end_normal: Option<Point>,
+        /// "round": it begins with a ball, and may overlap the parts in which its start lies.
+        joint: Option<Joint>,
         ..PAINTED
     }
 }
@@ -120,10 +147,71 @@ impl<S: Scalar> Word<S> for LimbWord<S> {
     fn solid(&self) -> Result<(Limb, Placement), GeomError> {
         let radii = (self.start_radius.value(), self.end_radius.value());
         let normals = (self.start_normal.map(plain), self.end_normal.map(plain));
-        Ok((bent(plain(self.start), plain(self.end), radii, normals)?, Placement::IDENTITY))
+        let limb = bent(plain(self.start), plain(self.end), radii, normals)?;
+        Ok((Limb { round: self.joint.is_some(), ..limb }, Placement::IDENTITY))
     }
 
     fn at(&self) -> [[S; 3]; 4] {
         between(self.start, self.end)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Claim: a limb with a round joint may overlap the parts that it begins in, and no others.
+    use super::super::shape::Shape;
+    use super::super::testing::sound;
+    use super::*;
+    use crate::intersect::{Rule, intersects};
+    use crate::look::Look;
+    use std::f64::consts::PI;
+
+    fn limb(start: Vec3, end: Vec3, round: bool) -> Shape {
+        let limb = bent(start, end, (0.3, 0.3), (None, None)).unwrap();
+        Shape::new(Limb { round, ..limb }.into(), Placement::IDENTITY, &Look::default()).unwrap()
+    }
+
+    #[test]
+    fn a_round_joint_is_half_a_ball() {
+        let shape = limb(vec3(1.0, 0.0, 0.0), vec3(1.0, 2.0, 0.0), true);
+        let ends = 2.0 / 3.0 * PI * 0.027 * (1.0 + limb::DOME);
+        sound(&shape, PI * 0.09 * 2.0 + ends, 0.02);
+        assert!((shape.aabb().low.y + 0.3).abs() < 1e-12);
+        sound(
+            &limb(vec3(1.0, 0.0, 3.0), vec3(2.0, 2.0, 0.0), false),
+            PI * 0.09 * 14_f64.sqrt() + ends - 2.0 / 3.0 * PI * 0.027,
+            0.02,
+        );
+    }
+
+    #[test]
+    fn neighbours_bend_at_round_joints() {
+        let [o, a, b] = [vec3(0.0, 0.0, 0.0), vec3(0.0, 2.0, 0.0), vec3(1.5, 2.5, 0.0)];
+        let (trunk, low) = (limb(o, a, true), vec3(0.2, 0.5, 0.0));
+        for rule in [Rule::Solid, Rule::Surface] {
+            assert!(intersects(&trunk, &limb(a, b, false), rule), "{rule:?}");
+            for branch in [limb(a, b, true), limb(vec3(0.2, 1.0, 0.0), b, true)] {
+                assert!(!intersects(&trunk, &branch, rule) && !intersects(&branch, &trunk, rule));
+            }
+            // The end of a limb is no joint, and it begins beside the trunk.
+            assert!(
+                intersects(&trunk, &limb(b, low, true), rule)
+                    && intersects(&limb(b, low, true), &trunk, rule)
+            );
+        }
+        let cube = Shape::cuboid(vec3(0.0, 0.0, 0.0), vec3(1.0, 1.0, 1.0), &Look::default()).unwrap();
+        assert!(!intersects(&cube, &trunk, Rule::Solid));
+        assert!(intersects(&cube, &limb(vec3(0.0, -1.0, 0.0), a, true), Rule::Solid));
+    }
+
+    #[test]
+    fn frames_move_joints() {
+        let frame =
+            Placement { rotation: Mat3::rotation(Vec3::AXES[2], 0.7), translation: vec3(5.0, 1.0, 2.0) };
+        let [a, b] = [vec3(0.0, 2.0, 0.0), vec3(1.5, 2.5, 0.0)];
+        let placed = |shape: Shape| shape.in_frame(&frame).unwrap();
+        let trunk = placed(limb(vec3(0.0, 0.0, 0.0), a, true));
+        assert!(!intersects(&trunk, &placed(limb(a, b, true)), Rule::Solid));
+        assert!(intersects(&trunk, &placed(limb(a, b, false)), Rule::Solid));
     }
 }

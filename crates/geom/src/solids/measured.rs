@@ -101,6 +101,14 @@ pub trait Measured {
         *placement
     }
 
+    /// The solid reflected at its plane x = 0, for kinds that are not their own reflection.
+    fn mirrored(&self) -> Self
+    where
+        Self: Clone,
+    {
+        self.clone()
+    }
+
     /// The mesh for pictures and files, around the origin: closed, round, with a unit normal at each vertex; edges are
     /// rounded by `bevel` (a share of the half lengths, from 0 to 1), if the shape has it.
     fn fine(&self, bevel: Option<f64>) -> FineMesh;

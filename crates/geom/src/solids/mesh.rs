@@ -41,6 +41,10 @@ impl Measured for Arc<TriMesh> {
         Placement { translation: if is_far { around.center() } else { origin }, ..*placement }
     }
 
+    fn mirrored(&self) -> Arc<TriMesh> {
+        TriMesh::mirrored(self)
+    }
+
     fn fine(&self, _bevel: Option<f64>) -> FineMesh {
         crease::creased(self, crease::SHARP)
     }

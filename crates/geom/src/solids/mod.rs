@@ -6,6 +6,7 @@
 //! - [`word`]: the words of the language that make solids, as data
 //! - [`shape`], [`words`], [`primitive`]: the placed solids that a model emits
 //! - `plate`: flat shapes as solids
+//! - [`cut`], `surface`, `leaf`, `sides`: solids cut from others
 
 #[macro_use]
 pub mod word;
@@ -18,6 +19,7 @@ pub mod ellipse;
 pub mod ellipsoid;
 pub mod extrusion;
 pub mod hull;
+mod leaf;
 pub mod limb;
 pub mod measured;
 pub mod mesh;
@@ -26,7 +28,9 @@ pub mod primitive;
 pub mod revolution;
 pub mod segment;
 pub mod shape;
+mod sides;
 pub mod stroke;
+mod surface;
 pub mod sweep;
 #[cfg(test)]
 pub(crate) mod testing;
@@ -36,7 +40,6 @@ pub mod words;
 
 use crate::bounds::Aabb;
 use crate::convex::Coarse;
-use crate::cut::Cut;
 use crate::error::GeomError;
 use crate::fine::FineMesh;
 use crate::mesh::TriMesh;
@@ -44,6 +47,7 @@ use crate::placement::Placement;
 use crate::tube::Tube;
 pub use arch::Arch;
 pub use cuboid::{Cuboid, TaperedCuboid};
+pub use cut::Cut;
 pub use cylinder::{Cylinder, TaperedCylinder};
 pub use ellipse::Ellipse;
 pub use ellipsoid::Ellipsoid;
@@ -132,6 +136,11 @@ macro_rules! solids {
             /// [`Measured::frame`].
             pub(crate) fn frame(&self, placement: &Placement) -> Placement {
                 match self { $(Solid::$variant(solid) => Measured::frame(solid, placement),)* }
+            }
+
+            /// [`Measured::mirrored`].
+            pub(crate) fn mirrored(&self) -> Solid {
+                match self { $(Solid::$variant(solid) => Solid::$variant(Measured::mirrored(solid)),)* }
             }
 
             /// [`Measured::fine`].

@@ -3,11 +3,11 @@
 //! Scores use the coarse mesh of its solid. Its hull is computed with the shape, but a store keeps it
 //! ([`crate::store`]). Pictures and files show the fine mesh of the same solid.
 
+use super::cut::{Cut, Operation};
 use super::measured::{Form, Tone, no_inside};
 use super::{Cuboid, Solid};
 use crate::bounds::Aabb;
 use crate::convex::{Convex, is_aligned};
-use crate::cut::{Cut, Operation};
 use crate::error::{GeomError, bad_shape};
 use crate::fine::FineMesh;
 use crate::look::{Look, Paint};
@@ -55,14 +55,16 @@ struct Plain {
     metalness: Option<f32>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     roughness: Option<f32>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    material: Option<Arc<str>>,
 }
 
 impl TryFrom<Plain> for Shape {
     type Error = GeomError;
 
     fn try_from(plain: Plain) -> Result<Shape, GeomError> {
-        let Plain { solid, placement, bevel, color, metalness, roughness } = plain;
-        Shape::new(solid, placement, &Look { rotation: None, bevel, color, metalness, roughness })
+        let Plain { solid, placement, bevel, color, metalness, roughness, material } = plain;
+        Shape::new(solid, placement, &Look { rotation: None, bevel, color, metalness, roughness, material })
     }
 }
 
@@ -75,6 +77,7 @@ impl From<Shape> for Plain {
             color: shape.color(),
             metalness: shape.metalness(),
             roughness: shape.roughness(),
+            material: shape.0.paint().material.clone(),
         }
     }
 }
@@ -113,9 +116,12 @@ impl Shape {
     /// `bad-shape` for sizes that are not positive and finite, a placement that is not a rotation, a flat limb, or a look
     /// that is out of range.
     pub fn new(solid: Solid, placement: Placement, look: &Look) -> Result<Shape, GeomError> {
+        Shape::painted(solid, placement, Paint::of(look)?)
+    }
+
+    fn painted(solid: Solid, placement: Placement, paint: Option<Box<Paint>>) -> Result<Shape, GeomError> {
         solid.check()?;
         placement.check()?;
-        let paint = Paint::of(look)?;
         // The solids of a cut are in the world, so that they keep their numbers and their places for gradients.
         let (solid, placement) = match solid {
             Solid::Cut(cut) if placement != Placement::IDENTITY => {
@@ -163,11 +169,6 @@ impl Shape {
     pub fn combined(operation: Operation, a: &Shape, b: &Shape) -> Result<Shape, GeomError> {
         let cut = Cut::new(operation, a, b)?;
         Shape::new(Solid::Cut(Arc::new(cut)), Placement::IDENTITY, &Look { bevel: None, ..a.look() })
-    }
-
-    /// The shape with another placement after its own.
-    pub(crate) fn placed_after(&self, placement: &Placement) -> Result<Shape, GeomError> {
-        Shape::new(self.solid().clone(), placement.after(&self.placement()), &self.look())
     }
 
     /// The tree of a cut; `None` for any other shape.
@@ -219,7 +220,32 @@ impl Shape {
             color: self.color(),
             metalness: self.metalness(),
             roughness: self.roughness(),
+            material: self.0.paint().material.clone(),
         }
+    }
+
+    /// The shape in a frame, whose matrix is a rotation, or a rotation after a reflection. The frame moves the shape; it does not
+    /// change its measures.
+    ///
+    /// # Errors
+    /// `bad-shape` for a frame that is neither, or that moves the shape too far away.
+    pub fn in_frame(&self, frame: &Placement) -> Result<Shape, GeomError> {
+        if let Some(cut) = self.cut() {
+            let solid = Solid::Cut(Arc::new(cut.placed(frame)?));
+            return Shape::painted(solid, Placement::IDENTITY, self.0.paint.clone());
+        }
+        let [a, b, c] = frame.rotation.columns;
+        let mut inner = self.placement();
+        let mut solid = self.solid().clone();
+        if a.cross(b).dot(c) < 0.0 {
+            // The reflection goes into the solid, so that a rotation remains.
+            solid = solid.mirrored();
+            inner.rotation.columns[0] = -inner.rotation.columns[0];
+        }
+        let mut placement = frame.after(&inner);
+        // Adding zero turns -0.0 into 0.0, so that a shape that is not turned is found to be so.
+        placement.rotation.columns = placement.rotation.columns.map(|column| column + Vec3::ZERO);
+        Shape::painted(solid, placement, self.0.paint.clone())
     }
 
     /// The solid, in its own coordinates.
@@ -263,6 +289,42 @@ impl Shape {
     /// Roughness, from 0 (a mirror) to 1 (chalk).
     pub fn roughness(&self) -> Option<f32> {
         Some(self.0.paint().finish[1]).filter(|share| !share.is_nan())
+    }
+
+    /// The name of the material.
+    pub fn material(&self) -> Option<&str> {
+        self.0.paint().material.as_deref()
+    }
+
+    /// The shape with the colour and the surface of `look` where it has none of its own.
+    ///
+    /// # Errors
+    /// `bad-shape` for a look that is out of range.
+    pub fn worn(&self, look: &Look) -> Result<Shape, GeomError> {
+        let Some(given) = Paint::of(look)? else { return Ok(self.clone()) };
+        let paint = self.0.paint().over(&given, self.0.solid.is_flat());
+        if paint == *self.0.paint() {
+            return Ok(self.clone());
+        }
+        let Inner { solid, translation, rotation, aabb, width, number, .. } = &*self.0;
+        let own = match solid.form() {
+            Form::Box | Form::Flat => Number::NONE,
+            Form::Mesh | Form::Convex => Number::new(),
+        };
+        if solid.form() == Form::Convex
+            && let Some(hull) = store::hull(number, || solid.hull(&self.placement()))
+        {
+            store::keep_hull(&own, hull);
+        }
+        Ok(Shape(Arc::new(Inner {
+            solid: solid.clone(),
+            translation: *translation,
+            rotation: rotation.clone(),
+            paint: Some(Box::new(paint)),
+            aabb: *aabb,
+            width: *width,
+            number: own,
+        })))
     }
 
     /// The kind of the solid: one of [`super::KINDS`].

@@ -111,6 +111,11 @@ impl Measured for Stroke {
         placement.after(&Placement { rotation, translation: start })
     }
 
+    fn mirrored(&self) -> Stroke {
+        let mirrored = |end: &Round| Round { center: end.center.mirrored(), ..*end };
+        Stroke { ends: Box::new(self.ends.each_ref().map(mirrored)) }
+    }
+
     fn fine(&self, _bevel: Option<f64>) -> FineMesh {
         plate::fine(self)
     }

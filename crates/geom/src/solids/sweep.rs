@@ -231,6 +231,13 @@ impl Measured for Arc<Sweep> {
         placement.after(&Placement { rotation, translation: middle })
     }
 
+    fn mirrored(&self) -> Arc<Sweep> {
+        // Sideways is a product of two directions, so the reflection turns it over.
+        let profile = self.profile.iter().map(|[x, y]| [-x, *y]).collect();
+        let path = self.path.iter().map(|point| point.mirrored()).collect();
+        Arc::new(Sweep { profile, path, scale: self.scale })
+    }
+
     fn fine(&self, _bevel: Option<f64>) -> FineMesh {
         let mesh = self.surface(|p| p);
         crease::creased(&mesh.expect("finite points and numbers of points"), crease::SHARP)

@@ -3,6 +3,8 @@
 use super::shape::Shape;
 use crate::bounds::Aabb;
 use crate::mesh::TriMesh;
+use crate::placement::Placement;
+use crate::vector::{Mat3, Vec3, vec3};
 
 fn volume(mesh: &TriMesh) -> f64 {
     mesh.corners().map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum()
@@ -23,6 +25,27 @@ pub(crate) fn sound(shape: &Shape, expected: f64, tolerance: f64) {
         "{}",
         shape.kind()
     );
+
+    // A reflected shape is the reflection of the shape, and of its fine mesh; twice reflected it is the shape.
+    let mirror = Placement {
+        rotation: Mat3 { columns: [vec3(-1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)] },
+        translation: vec3(2.0, 0.0, 0.0),
+    };
+    let mirrored = shape.in_frame(&mirror).expect("a reflection");
+    let pairs = [
+        (shape.world_mesh().vertices().to_vec(), mirrored.world_mesh().vertices().to_vec()),
+        (shape.fine_mesh().vertices, mirrored.fine_mesh().vertices),
+    ];
+    let near = |p: Vec3, points: &[Vec3]| points.iter().any(|q| (*q - p).norm() < 1e-9);
+    for (points, reflected) in pairs {
+        assert_eq!(points.len(), reflected.len(), "{}", shape.kind());
+        assert!(
+            points.iter().step_by(1 + points.len() / 100).all(|p| near(mirror.apply(*p), &reflected)),
+            "{} mirrored",
+            shape.kind()
+        );
+    }
+    assert!(volume(&mirrored.world_mesh()) > 0.0, "{} mirrored", shape.kind());
 
     let fine = shape.fine_mesh();
     let mesh = TriMesh::new(fine.vertices.clone(), fine.faces.clone()).unwrap();

@@ -56,6 +56,12 @@ pub trait Arguments<S: Scalar> {
     fn rows(&self, at: usize) -> Result<[[S; 3]; 3], Self::Fault>;
     /// The coordinate that a letter names: 0, 1 or 2.
     fn letter(&self, at: usize) -> Result<usize, Self::Fault>;
+    /// A text: which of `words` it is.
+    fn one_of(&self, at: usize, words: &[&str]) -> Result<usize, Self::Fault>;
+    /// A text.
+    fn text(&self, at: usize) -> Result<Arc<str>, Self::Fault>;
+    /// A colour: three numbers, or a name.
+    fn color(&self, at: usize) -> Result<[f32; 3], Self::Fault>;
     /// A letter, or a direction of any length.
     fn axis(&self, at: usize) -> Result<[S; 3], Self::Fault>;
     /// A frame of a segment, and its middle.
@@ -342,7 +348,16 @@ pub mod kinds {
     kind! {
         /// A colour.
         Color "Color" [[f32; 3]] Never, |never| match never {},
-        |arguments, at| Ok(arguments.three(at)?.map(|part| part.value() as f32))
+        |arguments, at| arguments.color(at)
+    }
+    kind! {
+        /// The name of a material.
+        Material "str" [Arc<str>] Never, |never| match never {}, |arguments, at| arguments.text(at)
+    }
+    kind! {
+        /// The word "round": a joint at which limbs may bend.
+        Joint "str" [()] Never, |never| match never {},
+        |arguments, at| arguments.one_of(at, &["round"]).map(|_| ())
     }
     kind! {
         /// A number from 0 to 1.
@@ -377,22 +392,30 @@ pub mod kinds {
 
 /// The looks at the end of a declaration.
 pub mod looks {
-    use super::kinds::{Color, Kind, Length, Share};
+    use super::kinds::{Color, Kind, Length, Material, Share};
     use super::{Arguments, Look, Parameter, Scalar};
 
-    const COLOR: Parameter = optional::<Color>("color", "`(r, g, b)` in [0, 1].");
+    const COLOR: Parameter =
+        optional::<Color>("color", "`(r, g, b)` in [0, 1], or a name such as \"tomato\" or \"#c83c1e\".");
     const METALNESS: Parameter =
         optional::<Share>("metalness", "From 0 (paint, wood, stone) to 1 (metal); 0 when left out.");
     const ROUGHNESS: Parameter =
         optional::<Share>("roughness", "From 0 (a mirror) to 1 (chalk); that of the palette when left out.");
-    const BEVEL: Parameter = optional::<Length>("bevel", "Width of the bevelled edges, drawn only.");
+    const MATERIAL: Parameter = optional::<Material>(
+        "material",
+        "The name of a material, which files keep; pictures do not show it.",
+    );
+    const BEVEL: Parameter = optional::<Length>(
+        "bevel",
+        "Rounding of the edges, drawn only: a share of half the smallest side, 0 for sharp edges.",
+    );
 
     /// The look of a flat shape.
     pub const COLORED: &[Parameter] = &[COLOR];
     /// The look of a solid without edges to round.
-    pub const PAINTED: &[Parameter] = &[COLOR, METALNESS, ROUGHNESS];
+    pub const PAINTED: &[Parameter] = &[COLOR, METALNESS, ROUGHNESS, MATERIAL];
     /// The look of a solid with edges.
-    pub const BEVELLED: &[Parameter] = &[BEVEL, COLOR, METALNESS, ROUGHNESS];
+    pub const BEVELLED: &[Parameter] = &[BEVEL, COLOR, METALNESS, ROUGHNESS, MATERIAL];
 
     const fn optional<K: Kind>(name: &'static str, doc: &'static str) -> Parameter {
         Parameter { name, python: K::PYTHON, default: Some("None"), doc }
@@ -417,6 +440,7 @@ pub mod looks {
         if looks.len() > 1 {
             look.metalness = <Option<Share>>::read(arguments, at + 1)?;
             look.roughness = <Option<Share>>::read(arguments, at + 2)?;
+            look.material = <Option<Material>>::read(arguments, at + 3)?;
         }
         Ok(look)
     }

@@ -114,7 +114,8 @@ mod tests {
     use super::*;
     use crate::vector::vec3;
 
-    const PLAIN: Look = Look { rotation: None, bevel: None, color: None, metalness: None, roughness: None };
+    const PLAIN: Look =
+        Look { rotation: None, bevel: None, color: None, metalness: None, roughness: None, material: None };
 
     #[test]
     fn a_cylinder_laid_along_z_has_vertices_on_the_axes() {

@@ -6,10 +6,11 @@
 //!
 //! - [`grid`]: the domain and its cells; world to grid coordinates
 //! - [`surface`], [`fill`]: any triangle mesh
-//! - [`crate::cut::cells`]: cuts, by the cells of their solids
+//! - [`cut`]: cuts, by the cells of their solids
 //! - [`slabs`]: convex solids, row by row; must agree with the method for meshes
 
 pub mod cells;
+pub mod cut;
 pub mod fill;
 pub mod grid;
 pub mod slabs;
@@ -45,8 +46,8 @@ impl Voxels {
         if shape.is_aligned_box() {
             return grid.cells_of(shape.aabb()).map(Voxels::block);
         }
-        if let Some(cut) = shape.cut() {
-            let (cells, bits) = crate::cut::cells::cells(cut, &shape.world_mesh(), grid)?;
+        if let Some(tree) = shape.cut() {
+            let (cells, bits) = cut::cells(tree, &shape.world_mesh(), grid)?;
             return Some(Voxels { cells, kind: Kind::Bits(bits) });
         }
         let Some(convex) = shape.convex() else { return Voxels::of_mesh(&shape.world_mesh(), grid) };
@@ -120,7 +121,7 @@ impl Voxels {
 
 /// Bits of the word `column` for the cells `first..=last`.
 #[inline]
-pub(crate) fn run(column: usize, first: usize, last: usize) -> u64 {
+fn run(column: usize, first: usize, last: usize) -> u64 {
     let base = column * 64;
     let (first, end) = (first.max(base), (last + 1).min(base + 64));
     if first >= end {

@@ -70,26 +70,26 @@ impl Bits {
     }
 
     /// Takes a cell out of the set.
-    pub(crate) fn clear(&mut self, [x, y, z]: [i64; 3]) {
+    pub(super) fn clear(&mut self, [x, y, z]: [i64; 3]) {
         if let Some((word, bit)) = self.place(x, y, z) {
             self.words[word] &= !(1 << bit);
         }
     }
 
     /// Takes the cells of another set over the same box out of this one.
-    pub(crate) fn remove(&mut self, other: &Bits) {
+    pub(super) fn remove(&mut self, other: &Bits) {
         self.words.iter_mut().zip(&other.words).for_each(|(word, other)| *word &= !other);
     }
 
     /// Puts cells `64 * column ..` of a row of the box into the set.
-    pub(crate) fn put(&mut self, column: usize, y: usize, z: usize, cells: u64) {
+    pub(super) fn put(&mut self, column: usize, y: usize, z: usize, cells: u64) {
         if let Some((word, _)) = self.place(column as i64 * 64, y as i64, z as i64) {
             self.words[word] |= cells;
         }
     }
 
     /// A cell of the set.
-    pub(crate) fn first(&self) -> Option<[i64; 3]> {
+    pub(super) fn first(&self) -> Option<[i64; 3]> {
         let at = self.words.iter().position(|word| *word != 0)?;
         let (row, x) = (at / self.columns, at % self.columns * 64 + self.words[at].trailing_zeros() as usize);
         let (y, z) = (row % self.dims[1], row / self.dims[1]);
@@ -143,7 +143,7 @@ pub fn mark(mesh: &TriMesh, grid: &Grid, bits: &mut Bits) {
 }
 
 /// Sets every cell of `marked` that is in `among` and that a triangle of `mesh` touches. The two sets are over one box.
-pub(crate) fn mark_among(mesh: &TriMesh, grid: &Grid, among: &Bits, marked: &mut Bits) {
+pub(super) fn mark_among(mesh: &TriMesh, grid: &Grid, among: &Bits, marked: &mut Bits) {
     let end: [i64; 3] = std::array::from_fn(|a| among.low[a] + among.dims[a] as i64 - 1);
     for corners in mesh.corners() {
         let (t, first, last) = in_grid(corners, grid);
@@ -154,10 +154,12 @@ pub(crate) fn mark_among(mesh: &TriMesh, grid: &Grid, among: &Bits, marked: &mut
         }
         for z in first[2].max(among.low[2])..=last[2].min(end[2]) {
             for y in first[1].max(among.low[1])..=last[1].min(end[1]) {
-                let row = ((z - among.low[2]) as usize * among.dims[1] + (y - among.low[1]) as usize) * among.columns;
+                let row = ((z - among.low[2]) as usize * among.dims[1] + (y - among.low[1]) as usize)
+                    * among.columns;
                 for column in x / 64..=last_x / 64 {
                     let at = row + column as usize;
-                    let mut open = among.words[at] & !marked.words[at] & cells_between(x, last_x, column * 64);
+                    let mut open =
+                        among.words[at] & !marked.words[at] & cells_between(x, last_x, column * 64);
                     while open != 0 {
                         let bit = open.trailing_zeros();
                         open &= open - 1;

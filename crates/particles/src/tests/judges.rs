@@ -277,10 +277,8 @@ pub(crate) fn counted(task: &Task, values: &[String]) -> Vec<(String, f64)> {
     let exact = enumerate(task, 100_000, &mut |_| true).unwrap();
     let n = values.len() as f64;
     let outcomes = exact.outcomes.iter();
-    let shares = countable(
-        outcomes.map(|(value, log)| (repr(value).unwrap(), (log - exact.log_evidence).exp())),
-        n,
-    );
+    let shares =
+        countable(outcomes.map(|(value, log)| (repr(value).unwrap(), (log - exact.log_evidence).exp())), n);
     let mut counts: HashMap<&str, f64> = HashMap::new();
     for value in values {
         let name = shares.iter().find(|(name, _)| name == value).map_or(OTHERS, |(name, _)| name);

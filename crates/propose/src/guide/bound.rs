@@ -5,7 +5,7 @@ use super::images::{Images, of_place};
 use super::inputs::place;
 use super::{Guide, Network};
 use niwaki_geom::sketch::product::Sketches;
-use niwaki_geom::{Aabb, Place, Vec3, WindowForm, vec3};
+use niwaki_geom::{Aabb, Place, Placement, Vec3, WindowForm, vec3};
 use niwaki_guide::filtered::View;
 use niwaki_guide::{Lesson, Net, Scratch};
 use niwaki_math::{Dist, Draw, MOST_NUMBERS, Stream};
@@ -354,8 +354,23 @@ fn lacking(form: &GuideForm, name: &str) -> Fault {
 }
 
 /// Where a choice is: the frame that was assigned last in its scope, or else the middle of the last part on its call path.
+/// A frame is in that of its function, if the function is placed; without another place, that is the place.
 fn place_of(at: &At<'_, f64>, part: Option<&Aabb>) -> Option<Place> {
-    at.look().and_then(place).or_else(|| part.map(|part| along_axes(part.center())))
+    let (outer, look) = (at.frame(), at.look().and_then(place));
+    let placed = |inner: Place| outer.map_or(inner, |outer| outer_place(outer, inner));
+    look.map(placed)
+        .or_else(|| part.map(|part| along_axes(part.center())))
+        .or_else(|| outer.map(|outer| outer_place(outer, along_axes(Vec3::ZERO))))
+}
+
+/// A place in a frame, as a place in the world.
+fn outer_place(outer: Placement, inner: Place) -> Place {
+    Place {
+        position: outer.apply(inner.position),
+        forward: outer.rotation.apply(inner.forward),
+        up: outer.rotation.apply(inner.up),
+        ..inner
+    }
 }
 
 /// A place that looks along +y, with +z up.

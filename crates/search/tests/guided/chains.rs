@@ -30,7 +30,8 @@ use std::sync::Arc;
 fn draws(task: &Task, count: u64) -> Vec<Vec<Entry>> {
     let scores = (0..2000).map(|stream| forward(task, 2, stream, false).expect("a run").log_score);
     let bound = scores.fold(f64::NEG_INFINITY, f64::max) + 0.5;
-    let accepted = rejection(task, repetitions(count) as usize, bound, u64::MAX, 1, &mut |_| true).expect("draws");
+    let accepted =
+        rejection(task, repetitions(count) as usize, bound, u64::MAX, 1, &mut |_| true).expect("draws");
     accepted.runs.iter().map(|run| run.log.entries()).collect()
 }
 

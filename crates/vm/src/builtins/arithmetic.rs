@@ -129,6 +129,25 @@ pub fn sign<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     Ok(Value::Int(i64::from(x > zero) - i64::from(x < zero)))
 }
 
+/// `smoothstep(x, lo, hi)`: from 0 at `lo` to 1 at `hi`, level at both (Hermite's cubic).
+pub fn smoothstep<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
+    let [x, lo, hi] = args else { return Err(Fault::argument_count("`smoothstep` takes 3 arguments")) };
+    let [x, lo, hi] = [real("smoothstep", x)?, real("smoothstep", lo)?, real("smoothstep", hi)?];
+    let (zero, one, width) = (S::from_f64(0.0), S::from_f64(1.0), hi - lo);
+    if width.value() == 0.0 {
+        return Err(Fault::division_by_zero("`smoothstep`: `lo` and `hi` are equal"));
+    }
+    let t = (x - lo) / width;
+    let t = if t < zero {
+        zero
+    } else if t > one {
+        one
+    } else {
+        t
+    };
+    Ok(Value::Real(t * t * (S::from_f64(3.0) - S::from_f64(2.0) * t)))
+}
+
 /// A real number with the sign of another.
 pub(super) fn with_sign<S: Scalar>(x: S, sign: S) -> S {
     let (value, other) = (x.value(), sign.value());

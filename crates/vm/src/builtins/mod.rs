@@ -7,6 +7,7 @@
 //! - [`sequences`]: making, ordering and folding sequences
 //! - [`strings`]: text, formatting and methods of built-in values
 //! - [`vectors`], [`frames`], [`shapes`]: points, directions, rotations, places to look from, solids
+//! - [`mod@placed`]: frames in which calls are placed, and shapes in them
 //! - [`colors`], [`polygons`]: colours and polygons of the plane
 //! - [`dist`]: distributions from values
 //!
@@ -17,9 +18,11 @@
 pub mod answer;
 pub mod arithmetic;
 pub mod colors;
+mod css;
 pub mod dist;
 pub mod frames;
 pub mod mathematics;
+pub mod placed;
 pub mod polygons;
 pub mod sequences;
 pub mod shapes;
@@ -159,6 +162,7 @@ niwaki_geom::words_of_solids! {
     "clip" 3 3 arithmetic::clip;
     "lerp" 3 3 |a| ops::add(&a[0], &ops::mul(&ops::sub(&a[1], &a[0])?, &a[2])?);
     "sign" 1 1 arithmetic::sign;
+    "smoothstep" 3 3 arithmetic::smoothstep;
 
     "sqrt" 1 1 mathematics::sqrt;
     "exp" 1 1 mathematics::exp;
@@ -217,6 +221,7 @@ niwaki_geom::words_of_solids! {
     "zip" 0 ANY sequences::zip;
     "zip_strict" 0 ANY sequences::zip_strict;
     "range" 1 3 sequences::range;
+    "linspace" 3 3 sequences::linspace;
     "to_list" 0 1 sequences::to_list;
     "to_tuple" 0 1 sequences::to_tuple;
     "options" 1 1 sequences::options;
@@ -237,7 +242,12 @@ niwaki_geom::words_of_solids! {
     "rotate" 3 3 vectors::rotate;
     "look" 2 3 frames::look;
     "check_look" 2 3 frames::check;
+    "frame_in" 2 2 placed::frame_in;
+    "placed" 2 2 placed::placed;
+    "reflection" 1 1 placed::reflection;
 
+    "rgb" 1 1 colors::parts;
+    "worn" 5 5 shapes::worn;
     "hsv" 3 3 colors::hsv;
     "lab" 3 3 colors::lab;
     "to_hsv" 1 1 colors::to_hsv;

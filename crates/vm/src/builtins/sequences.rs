@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::answer::{Answer, less};
-use super::arithmetic::whole;
+use super::arithmetic::{real, whole};
 use crate::fault::Fault;
 use crate::value::index::{iter_all, iter_len};
 use crate::value::numbers::Number;
@@ -160,6 +160,25 @@ pub fn range<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     }
     let too_long = || Fault::integer_overflow("the length of this range does not fit in 64 bits");
     Range::new(start, stop, step).map(|range| Value::Range(Arc::new(range))).ok_or_else(too_long)
+}
+
+/// `linspace(lo, hi, count)`: numbers at equal distances, with both ends.
+pub fn linspace<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
+    let (lo, hi) = (real("linspace", &args[0])?, real("linspace", &args[1])?);
+    let count = whole("linspace", &args[2])?;
+    if count < 1 {
+        return Err(Fault::bad_argument(format!("`linspace` gives 1 number or more, not {count}")));
+    }
+    let last = count - 1;
+    let number = |k: i64| match k {
+        0 => lo,
+        k if k == last => hi,
+        k => lo + (hi - lo) * S::from_f64(k as f64 / last as f64),
+    };
+    // The numbers of a range are counted before they take memory.
+    let places = iter_all(&range::<S>(&[Value::Int(count)])?)?;
+    let place = |value: &Value<S>| if let Value::Int(k) = value { *k } else { 0 };
+    Ok(Value::list(places.iter().map(|value| Value::Real(number(place(value)))).collect()))
 }
 
 /// `list(xs)`.

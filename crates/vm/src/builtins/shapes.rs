@@ -8,12 +8,14 @@ use std::any::Any;
 use std::cell::RefCell;
 use std::sync::Arc;
 
+use niwaki_geom::solids::word::looks::{self, PAINTED};
 use niwaki_geom::solids::word::{Arguments, Description, Word};
 use niwaki_geom::{Bark, Frame, GeomError, Shape, Solid, TriMesh, Vec3};
 
 use super::Builtin;
 use super::answer::{Answer, unfit};
 use super::arithmetic::{real, whole};
+use super::colors::rgb;
 use super::vectors::{three, two};
 use crate::fault::Fault;
 use crate::value::index::{iter_all, iter_get, iter_len};
@@ -129,6 +131,30 @@ impl<S: Scalar> Arguments<S> for WordCall<'_, S> {
         })
     }
 
+    fn one_of(&self, at: usize, words: &[&str]) -> Result<usize, Fault> {
+        let arg = self.required(at)?;
+        let found = match arg {
+            Value::Str(text) => words.iter().position(|word| *word == &**text),
+            _ => None,
+        };
+        found.ok_or_else(|| {
+            let expected: Vec<String> = words.iter().map(|word| format!("{word:?}")).collect();
+            self.named(at, &unfit(self.word.name, &expected.join(" or "), arg))
+        })
+    }
+
+    fn text(&self, at: usize) -> Result<Arc<str>, Fault> {
+        match self.required(at)? {
+            Value::Str(text) => Ok(Arc::from(&**text)),
+            other => Err(self.named(at, &unfit(self.word.name, "a name in quotes", other))),
+        }
+    }
+
+    fn color(&self, at: usize) -> Result<[f32; 3], Fault> {
+        let color: [S; 3] = self.read(at, self.required(at)?, rgb)?;
+        Ok(color.map(|part| part.value() as f32))
+    }
+
     fn axis(&self, at: usize) -> Result<[S; 3], Fault> {
         match self.required(at)? {
             Value::Str(_) => Ok(Vec3::AXES[self.letter(at)?].to_array().map(S::from_f64)),
@@ -199,6 +225,37 @@ where
     let shape = shape.map_err(|error| bad_shape(error).of_call(word, args))?;
     S::note(shape.address(), || parsed.at().concat());
     Ok(Value::Shape(shape))
+}
+
+/// The look of an `emit` as data.
+const EMIT: Description = Description { name: "emit", doc: "", measures: &[], look: PAINTED };
+
+/// `worn(color, metalness, roughness, material, shapes)`: shapes, also in lists and tuples, in one tuple; those without a part of
+/// this look have it now. Other values stay as they are.
+pub(super) fn worn<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
+    let (given, shapes) = args.split_at(PAINTED.len());
+    let look = looks::read(&WordCall { word: &EMIT, args: given, mesh: None }, PAINTED, 0)?;
+    each_shape(&shapes[0], |shape| {
+        let worn = shape.worn(&look).map_err(|error| bad_shape(error).of_call("emit", given))?;
+        S::note(worn.address(), || S::noted(shape.address()));
+        Ok(worn)
+    })
+}
+
+/// The shapes of a value, changed, in one tuple; lists and tuples are opened, and other values stay as they are.
+pub(super) fn each_shape<S: Scalar>(
+    value: &Value<S>,
+    change: impl Fn(&Shape) -> Result<Shape, Fault>,
+) -> Answer<S> {
+    let (mut waiting, mut all) = (vec![value.clone()], Vec::new());
+    while let Some(value) = waiting.pop() {
+        match &value {
+            Value::Shape(shape) => all.push(Value::Shape(change(shape)?)),
+            Value::Tuple(_) | Value::List(_) => waiting.extend(iter_all(&value)?.into_iter().rev()),
+            _ => all.push(value),
+        }
+    }
+    Ok(Value::tuple(all))
 }
 
 /// Converts a fault of the geometry crate, and keeps its message. Such faults concern measures and places: the
@@ -299,9 +356,40 @@ mod tests {
             V::real(0.1),
             V::None,
             V::None,
+            V::str("round"),
             at(1.0, 0.5, 0.0),
         ];
         assert_eq!(shape_of("limb", &color).color(), Some([1.0, 0.5, 0.0]));
+        let [.., joint, _] = &color;
+        assert_eq!(
+            code("limb", &color.clone().map(|arg| if arg == *joint { V::str("bent") } else { arg })),
+            "type-mismatch"
+        );
+        let worn = |look: [V; 4]| {
+            let [a, b, c, d] = look;
+            call(
+                "worn",
+                &[a, b, c, d, V::tuple(vec![V::Shape(cube.clone()), V::Shape(shape_of("limb", &color))])],
+            )
+        };
+        let painted = worn([V::str("#fff"), V::None, V::real(0.25), V::str("oak")]).unwrap();
+        let V::Tuple(painted) = painted else { panic!("{painted:?}") };
+        let [V::Shape(cube), V::Shape(limb)] = painted.items() else { panic!("{painted:?}") };
+        assert_eq!(
+            (cube.color(), cube.roughness(), cube.material()),
+            (Some([1.0; 3]), Some(0.25), Some("oak"))
+        );
+        assert_eq!((limb.color(), limb.material()), (Some([1.0, 0.5, 0.0]), Some("oak")));
+        assert_eq!(limb.world_mesh().vertices(), shape_of("limb", &color).world_mesh().vertices());
+        for wrong in [V::str("oak"), V::real(1.0)] {
+            let fault = worn([wrong, V::None, V::None, V::None]).unwrap_err();
+            assert!(
+                fault.code == "type-mismatch" && fault.message.starts_with("`color` of `emit`"),
+                "{fault}"
+            );
+        }
+        assert_eq!(worn([V::None, V::Int(2), V::None, V::None]).unwrap_err().code, "bad-shape");
+        assert_eq!(worn([V::None, V::None, V::None, V::str("")]).unwrap_err().code, "bad-shape");
     }
 
     #[test]

@@ -38,6 +38,7 @@ impl Program<f64> {
             classes: self.classes.clone(),
             functions: self.functions.iter().map(function).collect(),
             entry: self.entry,
+            frames: self.frames,
             constants_of_copies: Vec::new(),
         }
     }

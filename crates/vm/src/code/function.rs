@@ -104,6 +104,9 @@ pub struct Program<S: Scalar = f64> {
     pub functions: Vec<Function<S>>,
     /// The function where a run starts.
     pub entry: FunctionId,
+    /// Whether the program places calls: then the last capture of each effectful function is the frame of what it emits, and
+    /// the last argument of a call of a function value is that frame.
+    pub frames: bool,
     /// In a copy for a thread: the constants of all copies. A particle may hold constants of the copy that ran
     /// it before.
     pub(crate) constants_of_copies: Vec<Value<S>>,

@@ -93,7 +93,7 @@ fn take_expression(e: Expr, exprs: &mut Vec<Expr>) {
             exprs.extend(options.map(|options| *options));
         }
         Factor(x) | Condition(x) | Force(x) | Field(x, _) | Mem(x, _) => exprs.push(*x),
-        Observe(a, b) | Query(a, b) => exprs.extend([*a, *b]),
+        Observe(a, b) | Query(a, b) | Place(a, b) => exprs.extend([*a, *b]),
         Apply(x, xs) | FutureApply(x, xs) | Method(x, _, xs) => {
             exprs.push(*x);
             exprs.extend(xs);

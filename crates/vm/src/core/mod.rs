@@ -25,6 +25,9 @@ pub fn readable(name: &str) -> &str {
 /// The variable that a statement `look(...)` assigns: the place from which the choices after it are seen.
 pub const LOOK: &str = "%look";
 
+/// The capture with the frame of what a function emits, in programs that place calls: see `passes/frames.rs`.
+pub const PLACE: &str = "%place";
+
 /// A place in a source file: 1-based lines and columns, the end exclusive. All zero when unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Span {
@@ -165,6 +168,8 @@ pub enum ExprKind {
     Closure(Name, Vec<Expr>),
     /// Call of a function value.
     Apply(Box<Expr>, Vec<Expr>),
+    /// A call whose shapes go into a frame: the frame, and a `Call` or an `Apply`.
+    Place(Box<Expr>, Box<Expr>),
     /// A random choice; of a whole number with the list of its options, whose words name the number.
     Sample(Box<Expr>, Option<Box<Expr>>),
     /// A density factor of a distribution at a value.

@@ -160,6 +160,13 @@ fn compound(sexp: &Sexp<'_>) -> Result<Expr> {
         "condition" => ExprKind::Condition(boxed(0)?),
         "query" => ExprKind::Query(boxed(0)?, boxed(1)?),
         "emit" => ExprKind::Emit(tail(0)?),
+        "place" => {
+            let (frame, call) = (boxed(0)?, boxed(1)?);
+            if !matches!(call.kind, ExprKind::Call(..) | ExprKind::Apply(..)) {
+                return Err(CoreError::new("`place` needs a call"));
+            }
+            ExprKind::Place(frame, call)
+        }
         "force" => ExprKind::Force(boxed(0)?),
         "mem" => ExprKind::Mem(boxed(0)?, args.get(1).map(name).transpose()?),
         "future" => ExprKind::Future(name(at(0)?)?, tail(1)?),

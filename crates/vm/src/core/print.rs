@@ -112,6 +112,7 @@ fn expr(e: &Expr) -> String {
         Factor(x) => format!("(factor {})", expr(x)),
         Condition(x) => format!("(condition {})", expr(x)),
         Query(k, v) => two("query", k, v),
+        Place(frame, call) => two("place", frame, call),
         Emit(args) => format!("(emit{})", tail(args)),
         Force(x) => format!("(force {})", expr(x)),
         Mem(f, None) => format!("(mem {})", expr(f)),

@@ -23,9 +23,33 @@ impl Expr {
             Cond(c, a, b) => vec![c, a, b],
             Sample(x, options) => std::iter::once(&**x).chain(options.as_deref()).collect(),
             Factor(x) | Condition(x) | Force(x) | Field(x, _) | Mem(x, _) => vec![x],
-            Observe(a, b) | Query(a, b) => vec![a, b],
+            Observe(a, b) | Query(a, b) | Place(a, b) => vec![a, b],
             Apply(f, xs) | FutureApply(f, xs) | Method(f, _, xs) => std::iter::once(&**f).chain(xs).collect(),
             Dict(ks, xs) => ks.iter().chain(xs).collect(),
+        }
+    }
+
+    /// The direct parts, to be changed.
+    pub fn parts_mut(&mut self) -> Vec<&mut Expr> {
+        use ExprKind::*;
+        match &mut self.kind {
+            Literal(_) | Data(_) | Var(_) => vec![],
+            And(xs) | Or(xs) | Emit(xs) | List(xs) | Tuple(xs) => xs.iter_mut().collect(),
+            Call(_, xs)
+            | Closure(_, xs)
+            | Future(_, xs)
+            | Dist(_, xs)
+            | Host(_, xs)
+            | Record(_, xs)
+            | Op(_, xs) => xs.iter_mut().collect(),
+            Cond(c, a, b) => vec![c, a, b],
+            Sample(x, options) => std::iter::once(&mut **x).chain(options.as_deref_mut()).collect(),
+            Factor(x) | Condition(x) | Force(x) | Field(x, _) | Mem(x, _) => vec![x],
+            Observe(a, b) | Query(a, b) | Place(a, b) => vec![a, b],
+            Apply(f, xs) | FutureApply(f, xs) | Method(f, _, xs) => {
+                std::iter::once(&mut **f).chain(xs).collect()
+            }
+            Dict(ks, xs) => ks.iter_mut().chain(xs).collect(),
         }
     }
 

@@ -6,10 +6,11 @@
 use super::address::join;
 use super::registers::Registers;
 use super::state::{NodeId, State};
+use crate::builtins::placed::placement;
 use crate::code::{Function, Mode, Program, Site, Visible};
 use crate::fault::Fault;
 use crate::value::{Record, Value};
-use niwaki_geom::{Aabb, Shape};
+use niwaki_geom::{Aabb, Placement, Shape};
 use niwaki_math::{Dist, Scalar};
 
 /// An answer: continue, or pause.
@@ -100,6 +101,13 @@ impl<S: Scalar> At<'_, S> {
             Value::Record(record) if record.class.is_frame() => Some(&**record),
             _ => None,
         })
+    }
+
+    /// The frame in which the function is placed, if it is. Its matrix is a rotation, or one after a reflection.
+    pub fn frame(&self) -> Option<Placement> {
+        // The other variable without a name is a record: the place that the program looks from.
+        let unnamed = self.variables().filter(|(x, _)| x.name.is_empty());
+        unnamed.map(|(_, value)| value).find_map(placement)
     }
 
     /// The box of the part that was emitted last on the call path: by the activation itself (with the

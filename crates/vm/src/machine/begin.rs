@@ -50,8 +50,10 @@ impl<S: Scalar> Machine<'_, S> {
                 _ => captures[default.index() - needed].clone(),
             }
         };
-        let inputs =
-            args.iter().cloned().chain((args.len()..needed).map(default)).chain(captures.iter().cloned());
+        // The entry function of a program that places calls is given no frame.
+        let count = needed + f.captures as usize;
+        let inputs = args.iter().cloned().chain((args.len()..needed).map(default));
+        let inputs = inputs.chain(captures.iter().cloned()).chain(std::iter::repeat(Value::None)).take(count);
         let unmet = Numbers::below(self.held.map_or(0, Held::len));
         let shared_inputs = self.shared_inputs(args, captures);
         let mut state = State { depth_first, unmet, inputs: shared_inputs, ..State::empty() };

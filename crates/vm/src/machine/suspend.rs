@@ -215,7 +215,7 @@ impl<S: Scalar> Machine<'_, S> {
     }
 
     /// Takes the function value from the front of the buffer, and adds its defaults and captures after the
-    /// arguments.
+    /// arguments. In a program that places calls, the last argument is the frame.
     pub(super) fn unwrap_callee(&mut self) -> Result<Callee, Fault> {
         let callee = self.buffer.remove(0);
         let Value::Function(closure) = &callee else {
@@ -224,8 +224,13 @@ impl<S: Scalar> Machine<'_, S> {
         };
         let id = FunctionId(closure.function);
         let f = self.program.function(id);
+        let frame = if self.program.frames { self.buffer.pop() } else { None };
         self.buffer.extend(defaults(f, closure, self.buffer.len())?.cloned());
         self.buffer.extend(closure.captures.iter().cloned());
+        if let Some(frame) = frame.filter(|_| f.mode != Mode::Pure && closure.memo.is_none()) {
+            self.buffer.truncate(usize::from(f.params + f.captures) - 1);
+            self.buffer.push(frame);
+        }
         Ok(Callee { function: id, pure: f.mode == Mode::Pure, memo: closure.memo.clone() })
     }
 

@@ -171,12 +171,14 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
                 let value = self.unit.data.get(*k).cloned();
                 value.ok_or_else(|| CompileError(format!("constant {k} is missing")))?
             }
-            Closure(name, captures) if captures.is_empty() => {
+            // A frame is no capture of the function's own.
+            Closure(name, captures) if captures.iter().all(super::frames::is_no_frame) => {
                 let id = self.function_id(name)?;
-                if !self.definition(id).captures.is_empty() {
+                if self.definition(id).captures.len() != captures.len() {
                     return Err(CompileError(format!("a closure of `{name}` without its captures")));
                 }
-                Value::Function(Arc::new(value::Closure { function: id.0, memo: None, captures: vec![] }))
+                let captures = all(captures)?;
+                Value::Function(Arc::new(value::Closure { function: id.0, memo: None, captures }))
             }
             Dist(family, args) => {
                 Value::Dist(Arc::new(make_dist(super::sites::family(family)?, &all(args)?)?))

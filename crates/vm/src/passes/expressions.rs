@@ -3,7 +3,7 @@
 use super::CompileError;
 use super::emit::{Builder, Result};
 use crate::builtins::{builtin_id, make_dist};
-use crate::code::{Binary, FunctionId, Op, Operand, Place};
+use crate::code::{Binary, FunctionId, Op, Operand};
 use crate::core::{Expr, ExprKind, Name};
 use crate::value::Value;
 use niwaki_math::Scalar;
@@ -120,7 +120,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
     /// use.
     pub fn folded(&self, e: &Expr, operands: &[Operand]) -> Option<Value<S>> {
         use ExprKind::*;
-        if operands.iter().any(|o| o.place() != Place::Constant) {
+        if operands.iter().any(|o| o.place() != crate::code::Place::Constant) {
             return None;
         }
         let mut values: Vec<Value<S>> = operands.iter().map(|o| self.constants[o.index()].clone()).collect();
@@ -186,7 +186,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
     /// The value of a built-in function of constants, if it takes little time. A call that fails is left to the
     /// run, which knows the call stack.
     fn constant_result(&self, name: &str, operands: &[Operand]) -> Option<Value<S>> {
-        if binary(name).is_some() || operands.iter().any(|o| o.place() != Place::Constant) {
+        if binary(name).is_some() || operands.iter().any(|o| o.place() != crate::code::Place::Constant) {
             return None;
         }
         let values: Vec<Value<S>> = operands.iter().map(|o| self.constants[o.index()].clone()).collect();

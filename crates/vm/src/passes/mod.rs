@@ -1,20 +1,22 @@
-//! Core form to bytecode, in seven steps:
+//! Core form to bytecode, in eight steps:
 //!
 //! 1. [`effects`]: the functions that can suspend (the others are pure);
-//! 2. [`collections`]: the lists that hold references to their elements;
-//! 3. [`liveness`]: the variables that a loop must pass from one iteration to the next;
-//! 4. `emit`, `expressions`, `sites`, `statements`: one pass over each function. It uses static single
+//! 2. `frames`: the frames of placed calls, as captures;
+//! 3. [`collections`]: the lists that hold references to their elements;
+//! 4. [`liveness`]: the variables that a loop must pass from one iteration to the next;
+//! 5. `emit`, `expressions`, `sites`, `statements`: one pass over each function. It uses static single
 //!    assignment, with merges written by each arm; loops that can suspend are *lifted* into functions of their
 //!    own;
-//! 5. `place`: the registers that are in the node, and the scratch registers, by liveness on bytecode;
-//! 6. `slices`: the instructions that one changed value can reach;
-//! 7. `angles`: the values that are angles, for readers at choices.
+//! 6. `place`: the registers that are in the node, and the scratch registers, by liveness on bytecode;
+//! 7. `slices`: the instructions that one changed value can reach;
+//! 8. `angles`: the values that are angles, for readers at choices.
 
 mod angles;
 pub mod collections;
 pub mod effects;
 mod emit;
 mod expressions;
+mod frames;
 pub mod liveness;
 pub(crate) mod place;
 mod scope;
@@ -25,7 +27,7 @@ mod statements;
 use crate::code::{Function, FunctionId, Mode, Program, verify};
 use crate::core::deep::with_stack;
 use crate::core::visit::each_stmt;
-use crate::core::{Expr, ExprKind, Literal, Module, Name};
+use crate::core::{Expr, ExprKind, Literal, Module, Name, PLACE};
 use crate::fault::Fault;
 use crate::native::entries_of;
 use crate::value::Value;
@@ -104,6 +106,8 @@ fn compile_here<S: Scalar>(
 ) -> Result<Program<S>, CompileError> {
     check_records(module)?;
     let effects = Effects::of(module);
+    let framed = frames::with_frames(module, &effects);
+    let module = framed.as_ref().unwrap_or(module);
     let collections = Collections::of(module, &effects);
     let mut unit = Unit {
         module,
@@ -144,7 +148,7 @@ fn compile_here<S: Scalar>(
         .get(&module.entry)
         .ok_or_else(|| CompileError(format!("the entry `{}` is not defined", module.entry)))?;
     let main = &module.functions[entry.0 as usize];
-    if !main.captures.is_empty() {
+    if main.captures.iter().any(|x| **x != *PLACE) {
         return Err(CompileError(format!("the entry `{}` captures variables", main.name)));
     }
     let mut program = Program {
@@ -152,6 +156,7 @@ fn compile_here<S: Scalar>(
         classes: module.classes.iter().cloned().map(Arc::new).collect(),
         functions: unit.functions.into_iter().flatten().collect(),
         entry,
+        frames: framed.is_some(),
         constants_of_copies: Vec::new(),
     };
     angles::mark(&mut program);

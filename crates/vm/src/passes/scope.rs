@@ -5,7 +5,7 @@
 //! source.
 
 use crate::core::visit::{assigned, each_stmt};
-use crate::core::{ExprKind, Function, LOOK, Name, readable};
+use crate::core::{ExprKind, Function, LOOK, Name, PLACE, readable};
 use std::collections::{HashMap, HashSet};
 
 /// The variables that a program keeps readable at its choices.
@@ -47,7 +47,7 @@ impl FunctionScope {
         }
         let mut names: HashSet<Name> = first.into_values().cloned().collect();
         if matches!(scope, Scope::All) {
-            names.insert(Name::from(LOOK));
+            names.extend([LOOK, PLACE].map(Name::from));
         }
         FunctionScope(names)
     }

@@ -194,9 +194,10 @@ pub fn ne<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
 /// The solid that an operation makes of two; a fault if nothing is left of it.
 #[cold]
 fn cut<S: Scalar>(operation: Operation, a: &Value<S>, b: &Value<S>, shapes: [&Shape; 2]) -> Answer<S> {
-    let made = Shape::combined(operation, shapes[0], shapes[1]);
-    let fault = |error: GeomError| Fault::bad_shape(error.message).of_call(operation.sign(), &[a.clone(), b.clone()]);
-    made.map(Value::Shape).map_err(fault)
+    let solid = Shape::combined(operation, shapes[0], shapes[1]);
+    let fault =
+        |error: GeomError| Fault::bad_shape(error.message).of_call(operation.sign(), &[a.clone(), b.clone()]);
+    solid.map(Value::Shape).map_err(fault)
 }
 
 macro_rules! bit_operators {

@@ -467,6 +467,64 @@ fn choices_see_the_variables_that_every_path_has_assigned() {
     assert_eq!(visible, expected);
 }
 
+/// The origin of the frame at every choice: frames compose on the way down, also through loops, values and futures, and not into
+/// memoised calls.
+#[test]
+fn choices_see_the_frame_of_their_function() {
+    #[derive(Default)]
+    struct Frames(Vec<(String, Option<[f64; 3]>)>);
+    impl Answers<f64> for Frames {
+        fn choice(&mut self, at: &At<'_, f64>, _: &Dist) -> Result<Answer<Value>, Fault> {
+            let origin = at.frame().map(|frame| frame.translation.to_array());
+            self.0.push((at.site.label.to_string(), origin));
+            Ok(Answer::Go(Value::Bool(true)))
+        }
+        fn host(&mut self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
+            Ok(args[0].clone())
+        }
+    }
+    let flip = |name: &str| format!("(set ${name} (sample (dist bernoulli 0.5)))");
+    let text = format!(
+        r#"(module
+          (fn "leaf" (params) {} (return 1))
+          (fn "part" (params $p) {} (for $i (range 1) (body {}
+              (do (place (tuple $p 1.0 0.0) (call "leaf")))))
+            (do (future "leaf")) (do (apply (closure "leaf"))) (return none))
+          (fn "m" (params) {}
+            (set $f (closure "part")) (set $r (mem (closure "leaf")))
+            (do (place (tuple 5.0 0.0 0.0) (apply $f 2.0)))
+            (do (place (tuple 5.0 0.0 0.0) (apply $r)))
+            (do (call "part" 3.0))
+            (return none)) (entry "m"))"#,
+        flip("u"),
+        flip("a"),
+        flip("b"),
+        flip("first")
+    );
+    let program =
+        compile_with_scope(&parse(&text).expect("core form"), vec![], Scope::All).expect("a program");
+    let (mut machine, mut frames) = (Machine::new(&program, Limits::default()), Frames::default());
+    let mut state = machine.start(&[], true).expect("a start");
+    machine.finish(&mut state, &mut frames).expect("a run");
+    let placed = Some([5.0, 0.0, 0.0]);
+    let expected = [
+        ("first", None),
+        ("a", placed),
+        ("b", placed),
+        ("u", Some([7.0, 1.0, 0.0])),
+        ("u", placed),
+        ("u", placed),
+        ("u", None),
+        ("a", None),
+        ("b", None),
+        ("u", Some([3.0, 1.0, 0.0])),
+        ("u", None),
+        ("u", None),
+    ];
+    let found: Vec<(&str, Option<[f64; 3]>)> = frames.0.iter().map(|(label, at)| (&**label, *at)).collect();
+    assert_eq!(found, expected);
+}
+
 #[test]
 fn the_program_looks_from_the_frame_that_was_assigned_last() {
     let seen = scopes(

@@ -154,15 +154,6 @@ LANGUAGE = (
         cure='@model\ndef m(side):\n    return uniform(0, 1, label="width of the side")\n',
     ),
     Message(
-        "emit-color",
-        "an `emit` can color only shapes that are made in it, with a colour that is computed before it",
-        "a shape made elsewhere, or a random colour",
-        why="a shape gets its colour where it is made, and all shapes of an `emit` get the same colour",
-        help="give `color=` to `box`, `cylinder`, ... where the shape is made; draw a random colour on a line before the `emit`",
-        example="@model\ndef m(roof):\n    emit(roof, color=(0.8, 0.4, 0.2))\n",
-        cure="@model\ndef m():\n    emit(box((0, 1, 0), (2, 0.1, 2)), color=(0.8, 0.4, 0.2))\n",
-    ),
-    Message(
         "not-emitted",
         "a shape is made here and never added to the scene",
         "nothing uses this shape",

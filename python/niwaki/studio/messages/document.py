@@ -38,6 +38,8 @@ class TargetAsk(Struct, frozen=True, forbid_unknown_fields=True):
         its base, then moved.
     turn
         Degrees about y.
+    up
+        The axis of the mesh that points up: "z" for meshes of printers and CAD programs, which are stood up first.
     """
 
     source: Text
@@ -48,6 +50,7 @@ class TargetAsk(Struct, frozen=True, forbid_unknown_fields=True):
         Annotated[float, Meta(gt=0.0, le=1e6)],
     ] = (1.0, 1.0, 1.0)
     turn: Length = 0.0
+    up: Literal["y", "z"] = "y"
 
 
 Obstacles = Annotated[list[TargetAsk], Meta(max_length=16)]
@@ -85,12 +88,15 @@ class Sketch(Struct, frozen=True, forbid_unknown_fields=True):
         The camera of the view; None for a drawing in the plane.
     kind
         The meaning of the strokes: the scene as the camera sees it, or its shadow on the floor.
+    inside
+        Whether closed outlines mean their inside; open strokes always mean themselves.
     """
 
     strokes: Annotated[list[Stroke], Meta(min_length=1, max_length=500)]
     aspect: Annotated[float, Meta(gt=0.1, lt=10.0)]
     camera: Eye | None = None
     kind: Literal["silhouette", "shadow"] = "silhouette"
+    inside: bool = False
 
 
 class RuleAsk(Struct, frozen=True, forbid_unknown_fields=True):

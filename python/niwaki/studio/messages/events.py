@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 from msgspec import Struct
 
-from niwaki.studio.messages.document import Ask, HeldPart, Key, Outcome, Point, RulesAsk, Settings
+from niwaki.studio.messages.document import Ask, HeldPart, Key, Outcome, Point, RulesAsk, Settings, TargetAsk
 
 
 class Place(Struct):
@@ -33,6 +33,8 @@ class Parameter(Struct):
     name: str
     default: Any = None
     is_required: bool = False
+    #: Whether the parameter is a whole number: by its annotation, or else by its default.
+    is_whole: bool = False
 
 
 class RegionInfo(Struct):
@@ -98,6 +100,23 @@ class Searching(Struct):
     fit: str = ""
 
 
+class Placing(Struct, frozen=True):
+    """An offered placement of the target: why, in a sentence, and the target at its new place."""
+
+    text: str
+    #: The words of its button.
+    label: str
+    target: TargetAsk
+
+
+class Sizes(Struct, frozen=True):
+    """The size of a run of the model without a target, the size of the target, and offered placements."""
+
+    model: Point | None = None
+    target: Point | None = None
+    offers: list[Placing] = []
+
+
 class View(Struct):
     """The state that every window shows; a patch has some of its fields."""
 
@@ -121,6 +140,7 @@ class View(Struct):
     note: str = ""
     #: A note on partial runs of the last search that became impossible, and on the parts; empty without such runs.
     losses: str = ""
+    sizes: Sizes = Sizes()
 
 
 class Event(Struct, tag_field="kind"):
@@ -150,14 +170,15 @@ class Described(Event, tag="described"):
     Attributes
     ----------
     labels
-        The label of every choice and part, and of the calls and iterations around them, by address: the whole label,
-        and its last step, which is read below the label of the call around it.
+        The label of every choice and part, and of the calls and iterations around them, those around first: the number
+        of the row around it (-1 for the outermost), the component of addresses, the label as it is read below the row
+        around it, and whether it takes that row's place in a whole label (`niwaki.lang.labels.Labels.tree`).
     """
 
     key: Key | None = None
     choices: list[ChoiceInfo] = []
     parts: list[PartInfo] = []
-    labels: dict[str, tuple[str, str]] = {}
+    labels: list[tuple[int, str, str, bool]] = []
 
 
 class Shape(Event, tag="shape"):
@@ -167,14 +188,15 @@ class Shape(Event, tag="shape"):
     ----------
     role
         "best" for the best of a running search, "result", "moving" while a choice or a part moves, "ghost" for the
-        target, or "obstacle".
+        target, "obstacle", "prior" for a run of the model without a target, or "glimpse" for such a run of a model of
+        the list.
     number
         The number of the obstacle.
     parts
         Addresses of the parts; the mesh has the number of the part for each triangle.
     """
 
-    role: Literal["best", "result", "moving", "ghost", "obstacle"] = "result"
+    role: Literal["best", "result", "moving", "ghost", "obstacle", "prior", "glimpse"] = "result"
     number: int = 0
     key: Key | None = None
     detail: Literal["light", "fine"] = "light"
@@ -183,7 +205,7 @@ class Shape(Event, tag="shape"):
     parts: list[str] = []
     low: Point = (0.0, 0.0, 0.0)
     high: Point = (0.0, 0.0, 0.0)
-    #: The source of a ghost or an obstacle; None without a target.
+    #: The source of a ghost or an obstacle, None without a target; the reference of the model of a glimpse.
     source: str | None = None
     #: The point about which a ghost is turned and scaled.
     pivot: Point = (0.0, 0.0, 0.0)
@@ -264,6 +286,16 @@ class Difference(Event, tag="difference"):
     is_picture: bool = False
 
 
+class Mask(Event, tag="mask"):
+    """The header of a frame with a byte for each pixel of a sketch, as it is scored: 1 is inside. No size: no sketch.
+
+    The picture has the sketch's aspect; its first row is on top.
+    """
+
+    width: int = 0
+    height: int = 0
+
+
 class Done(Event, tag="done"):
     """A command is done."""
 
@@ -275,6 +307,8 @@ class File(Event, tag="file"):
 
     hash: str = ""
     name: str = ""
+    #: Where the session keeps the file.
+    path: str = ""
 
 
 class Failed(Event, tag="error"):

@@ -7,7 +7,17 @@ from typing import Any, Literal
 from msgspec import Struct
 
 from niwaki.studio.messages.document import Ask, Choices, HeldPart, Key, Outcome, Point, Settings
-from niwaki.studio.messages.events import Described, Difference, Dragged, ModelInfo, Offered, Problem, Shape
+from niwaki.studio.messages.events import (
+    Described,
+    Difference,
+    Dragged,
+    Mask,
+    ModelInfo,
+    Offered,
+    Problem,
+    Shape,
+    Sizes,
+)
 from niwaki.studio.messages.modes import Judged, Palette, Picture, Regions
 
 
@@ -43,9 +53,15 @@ class Load(Job, tag="load"):
 
 
 class Ghost(Job, tag="ghost"):
-    """Send the mesh of a target, or the regions of a drawing."""
+    """Send the mesh of a target with a run of the model beside it, or the regions of a drawing."""
 
     question: Question
+
+
+class Glimpse(Job, tag="glimpse"):
+    """Send a run of a model of the list."""
+
+    reference: str
 
 
 class Grow(Job, tag="grow"):
@@ -204,6 +220,7 @@ AnyJob = (
     ListModels
     | Load
     | Ghost
+    | Glimpse
     | Grow
     | GrowValues
     | GrowAgain
@@ -234,6 +251,7 @@ class Answer(Struct, tag_field="kind", tag="answer"):
     interrupted: bool = False
     #: The text of `View.note`; for a search, of `View.losses`.
     note: str = ""
+    sizes: Sizes = Sizes()
 
 
 class Progressed(Struct, tag_field="kind", tag="progressed"):
@@ -267,4 +285,5 @@ AnyReport = (
     | Judged
     | Picture
     | Regions
+    | Mask
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import hashlib
+import re
 from pathlib import Path
 
 from niwaki.errors.files import ensure_folder, write_whole
@@ -27,10 +28,20 @@ async def export(session: Session, window: Window, command: m.Export) -> m.Answe
         )
     )
     if answer.problem is None:
-        data = await asyncio.to_thread(Path(answer.path).read_bytes)
+        written = Path(answer.path)
+        data = await asyncio.to_thread(written.read_bytes)
         name = hashlib.sha256(data).hexdigest()
-        place = files / name / Path(answer.path).name
+        place = files / name / f"{_stem(session, command.key)}{written.suffix}"
         if not place.is_file():
             await asyncio.to_thread(lambda: write_whole(ensure_folder(place.parent) / place.name, data))
-        window.tell(m.File(command.id, name, Path(answer.path).name))
+        window.tell(m.File(command.id, name, place.name, str(place.resolve())))
     return answer
+
+
+def _stem(session: Session, key: m.Key) -> str:
+    """Return the name of a file without its suffix: the model, the number of the run, and the place in the run."""
+    listed = (outcome.model for outcome in session.document.results if outcome.key == key)
+    reference = next(listed, session.document.model or "")
+    bare = re.sub(r"^drawing:upload:.*", "drawing", reference).rpartition(":")[2]
+    bare = re.sub(r"[^\w-]+", "-", Path(bare).name.removesuffix(".py")).strip("-")
+    return f"{bare or 'result'}-{key.run + 1}-{key.number + 1}"

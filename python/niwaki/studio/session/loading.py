@@ -13,6 +13,9 @@ from niwaki.studio.session import reshaping
 from niwaki.studio.session.state import CommandError, Session
 from niwaki.studio.window import Window, newest
 
+#: Models of the first screen.
+GLIMPSES = 6
+
 
 async def begin(session: Session) -> None:
     """List the models and load the session's model; then the session is ready for commands."""
@@ -40,10 +43,28 @@ async def _load_lists(session: Session) -> None:
     if session.document.model is None and session.models:
         session.step("model", {"model": session.models[0].reference})
     await load(session, earlier=session.problem)
+    if not session.document.results:
+        session.start(_load_glimpses(session))
+
+
+async def _load_glimpses(session: Session) -> None:
+    """Show a run of the first models of the list, to choose from before there are results."""
+
+    def report(header: Any, payload: bytes) -> None:
+        kind, data = newest(header), frame(msgspec.json.encode(header), payload)
+        session.glimpses[kind] = data
+        for window in session.windows:
+            window.put(data, kind)
+
+    # A run of a drawing model is seldom more than a line; a model with a target shows what it is.
+    shown = [model for model in session.models if model.is_file or (model.kind == "scene" and model.target)]
+    scenes = [model.reference for model in shown]
+    for reference in scenes[:GLIMPSES]:
+        await session.desk.do(m.Glimpse(reference=reference), report)
 
 
 def choose_model(session: Session, window: Window, command: m.ChooseModel) -> None:
-    """Choose another model; starred results stay."""
+    """Choose another model; the results of every model stay."""
     reference = command.reference
     if reference not in {model.reference for model in session.models}:
         reference = _of_named_file(session, reference)
@@ -53,8 +74,9 @@ def choose_model(session: Session, window: Window, command: m.ChooseModel) -> No
         )
         raise CommandError("unknown-model", text)
     session.losses = ""
-    fresh = {"model": reference or command.reference, "arguments": {}, "ask": m.Ask(), "held": []}
-    session.step("model", {**fresh, "results": session.document.starred(), "picked": None})
+    model = reference or command.reference
+    fresh = {"model": model, "arguments": {}, "ask": m.Ask(), "held": []}
+    session.step("model", {**fresh, "picked": session.document.first(model)})
     session.start(load(session))
 
 
@@ -99,18 +121,37 @@ async def load_ghost(session: Session, window: Window | None) -> None:
     usual = None if session.model is None else session.model.target
     answer = await session.desk.do(m.Ghost(question=question), report)
     session.note = answer.note
-    session.tell_all()
+    aim = session.document.ask.target
     if answer.problem is not None and window is not None:
         window.tell(m.Failed(0, answer.problem))
-    if "ghost" not in dict(frames):
+    session.sizes = _with_source(answer.sizes, usual if aim is None else aim.source)
+    session.tell_all()
+    kinds = dict(frames)
+    for kind, empty in (("mask", m.Mask()), ("prior", m.Shape(role="prior"))):
+        if kind not in kinds:
+            frames.append((kind, frame(msgspec.json.encode(empty))))
+    if "ghost" not in kinds:
         source = None
         if question.ask.sketch is None:
             source = question.ask.target.source if question.ask.target is not None else usual
         frames.append(("ghost", frame(msgspec.json.encode(m.Shape(role="ghost", source=source)))))
-    session.ghosts = dict(frames)
-    for each in session.windows:
-        for kind, data in frames:
-            each.put(data, kind)
+    before, session.ghosts = session.ghosts, dict(frames)
+    for kind, data in frames:
+        # A run of the model is large, and seldom another one.
+        if kind != "prior" or before.get(kind) != data:
+            for each in session.windows:
+                each.put(data, kind)
+
+
+def _with_source(sizes: m.Sizes, source: str | None) -> m.Sizes:
+    """Return sizes whose offers name the source of the target, which a worker knows by its file."""
+    if source is None:
+        return sizes
+    offers = [
+        msgspec.structs.replace(offer, target=msgspec.structs.replace(offer.target, source=source))
+        for offer in sizes.offers
+    ]
+    return msgspec.structs.replace(sizes, offers=offers)
 
 
 async def reload(session: Session, paths: set[Path]) -> None:

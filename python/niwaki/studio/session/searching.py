@@ -51,7 +51,7 @@ async def _search(session: Session, number: int) -> m.Answer:
         if results:
             document = session.document
             picked = results[0].key if results[0].model == document.model else document.picked
-            session.step("run", {"results": [*document.starred(), *results], "picked": picked})
+            session.step("run", {"results": [*document.kept(), *results], "picked": picked})
     finally:
         session.tell_all()
     return answer

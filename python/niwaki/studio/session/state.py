@@ -58,7 +58,11 @@ class Session:
     search
         The task of the running search.
     ghosts
-        Frames of the target and of obstacles, by kind.
+        Frames of the target, of obstacles and of a run of the model, by kind.
+    glimpses
+        Frames with a run of each of the first models of the list, by kind.
+    sizes
+        The sizes of the model and of its target, and offered placements.
     slider
         The newest value of a choice, by the phase of its slider.
     dragged, dragging
@@ -87,6 +91,8 @@ class Session:
         self.dragged: m.Drag | None = None
         self.dragging = asyncio.Lock()
         self.ghosts: dict[str, bytes] = {}
+        self.glimpses: dict[str, bytes] = {}
+        self.sizes = m.Sizes()
         self._shapes: OrderedDict[tuple[m.Key, str], bytes] = OrderedDict()
         self._last: dict[str, Any] = {}
         self._rev = 0
@@ -167,6 +173,7 @@ class Session:
             redo=self.journal.redoable,
             note=self.note,
             losses=self.losses,
+            sizes=self.sizes,
         )
 
     def welcome(self, window: Window, command: int) -> None:
@@ -175,7 +182,7 @@ class Session:
         window.tell(m.State(command, session=self.journal.name, rev=self._rev, view=self.view()))
         if self.journal.loss:
             window.tell(m.Failed(0, m.Problem("step-lost", self.journal.loss)))
-        for kind, data in self.ghosts.items():
+        for kind, data in {**self.ghosts, **self.glimpses}.items():
             window.put(data, kind)
 
     def tell_all(self) -> None:

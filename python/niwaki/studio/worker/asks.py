@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import lru_cache
 from math import cos, dist, radians, sin
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import trimesh
@@ -19,14 +19,16 @@ from niwaki.errors import InputError
 from niwaki.guides import shipped
 from niwaki.lang.compiled import arguments as positional
 from niwaki.shell.references import ModelReference
-from niwaki.studio.messages import Ask, Question, Sketch, TargetAsk
+from niwaki.studio.messages import Ask, Question, Sketch, Stroke, TargetAsk
 from niwaki.studio.worker.models import reference
-from niwaki.studio.worker.thinning import Ghost
+from niwaki.studio.worker.thinning import Ghost, stood
 
 Point = tuple[float, float, float]
 
 #: Pixels: the height of a mask drawn by hand, and the longer side of a drawing in the plane.
 MASK_HEIGHT, DRAWING_SIDE = 96, 50
+#: The gap between the ends of a closed outline, as a share of its length; the grey of all that is outside outlines.
+GAP, OUTSIDE = 0.12, 100
 
 #: Primitive targets: unit size, on the ground.
 PRIMITIVES = {
@@ -72,8 +74,8 @@ def usual(model: ModelReference) -> TargetAsk | None:
 def _sketch_options(ask: Ask, sketch: Sketch) -> dict[str, Any]:
     """Return the options for a drawing in the plane, a silhouette, or a shadow on the floor."""
     if sketch.camera is None:
-        return {"match_image": mask(sketch, DRAWING_SIDE)}
-    image, seen_by = mask(sketch, MASK_HEIGHT), camera(sketch)
+        return {"match_image": mask(sketch)}
+    image, seen_by = mask(sketch), camera(sketch)
     if sketch.kind == "silhouette":
         return {"match_image": image, "camera": seen_by}
     # The part of the floor that the camera sees well.
@@ -82,20 +84,44 @@ def _sketch_options(ask: Ask, sketch: Sketch) -> dict[str, Any]:
     return {"match_shadow": image, "camera": seen_by, "light": ask.light, "receiver": ground}
 
 
-def mask(sketch: Sketch, height: int) -> NDArray[np.bool_]:
-    """Draw the strokes as a mask, (height, columns)."""
+def mask(sketch: Sketch) -> NDArray[np.bool_]:
+    """Draw a sketch as the mask that is scored, (rows, columns)."""
+    height = DRAWING_SIDE if sketch.camera is None else MASK_HEIGHT
     fine = 4 * height
     picture = Image.new("L", (max(8, round(fine * sketch.aspect)), fine), 0)
     pen = ImageDraw.Draw(picture)
     for stroke in sketch.strokes:
         wide = stroke.width * fine
         points = [(x * fine, y * fine) for x, y in stroke.points]
+        if sketch.inside and _is_closed(stroke):
+            points.append(points[0])
         if len(points) > 1:
             pen.line(points, fill=255, width=max(1, round(wide)), joint="curve")
         for x, y in (points[0], points[-1]):
             pen.ellipse((x - wide / 2, y - wide / 2, x + wide / 2, y + wide / 2), fill=255)
+    if sketch.inside:
+        picture = _filled(picture)
     small = picture.resize((max(2, round(height * sketch.aspect)), height), Image.Resampling.BOX)
     return np.asarray(small) > 127
+
+
+def _is_closed(stroke: Stroke) -> bool:
+    """Whether a stroke ends near its beginning, so that it is an outline: hands rarely meet the point itself."""
+    points = np.array(stroke.points)
+    gap = float(np.linalg.norm(points[-1] - points[0]))
+    length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+    return length > 4.0 * stroke.width and gap <= max(1.5 * stroke.width, GAP * length)
+
+
+def _filled(picture: Image.Image) -> Image.Image:
+    """Fill what strokes enclose: all that the edge of the picture does not reach."""
+    wide, high = picture.size
+    around = Image.new("L", (wide + 2, high + 2), 0)
+    around.paste(picture, (1, 1))
+    ImageDraw.floodfill(around, (0, 0), OUTSIDE)
+    return around.point([0 if level == OUTSIDE else 255 for level in range(256)]).crop(
+        (1, 1, wide + 1, high + 1)
+    )
 
 
 def camera(sketch: Sketch) -> nw.Camera:
@@ -107,7 +133,7 @@ def camera(sketch: Sketch) -> nw.Camera:
 
 def placed(ask: TargetAsk) -> nw.Target:
     """Return a target at its place."""
-    base = _load(ask.source)
+    base = _load(ask.source, ask.up)
     place = Placement(ask, base.bounds)
     return base if place.is_at_rest else nw.Target(place(base.vertices), base.faces, base.name)
 
@@ -115,7 +141,8 @@ def placed(ask: TargetAsk) -> nw.Target:
 def shown(ask: TargetAsk) -> tuple[Ghost, Point]:
     """Return the ghost of a target at its place, and the middle of its base, about which it is turned and scaled."""
     mesh = Path(ask.source)
-    base = (Ghost.beside(mesh) if mesh.is_absolute() else None) or Ghost.of(_load(ask.source))
+    beside = Ghost.beside(mesh) if mesh.is_absolute() else None
+    base = Ghost.of(_load(ask.source, ask.up)) if beside is None else beside.stood(ask.up)
     place = Placement(ask, base.bounds)
     corners = np.array(
         [[x, y, z] for x in base.bounds[:, 0] for y in base.bounds[:, 1] for z in base.bounds[:, 2]]
@@ -154,7 +181,13 @@ class Placement:
 
 
 @lru_cache(maxsize=4)
-def _load(source: str) -> nw.Target:
+def _load(source: str, up: Literal["y", "z"]) -> nw.Target:
+    """Load the target of a source, and stand it up if its z axis points up."""
+    target = _target(source)
+    return target if up == "y" else nw.Target(stood(target.vertices), target.faces, target.name)
+
+
+def _target(source: str) -> nw.Target:
     """Load the target of a source: a primitive, a target of the gallery, or an uploaded file."""
     if source in PRIMITIVES:
         mesh = PRIMITIVES[source]()

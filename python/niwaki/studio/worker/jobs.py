@@ -6,7 +6,10 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 from math import isfinite
-from typing import Any
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
 
 import niwaki as nw
 from niwaki.lang.compiled import translated
@@ -14,30 +17,71 @@ from niwaki.result import Progress, Result, Sample
 from niwaki.result.progress import Watch
 from niwaki.result.search_like import SearchLike
 from niwaki.shell.references import ModelReference
-from niwaki.studio.messages import Answer, Change, Ghost, Grow, Key, Progressed, Question, Regrow, TargetAsk
+from niwaki.studio.messages import (
+    Answer,
+    Ask,
+    Change,
+    Ghost,
+    Glimpse,
+    Grow,
+    Key,
+    Mask,
+    Progressed,
+    Question,
+    Regrow,
+    Settings,
+    TargetAsk,
+)
 from niwaki.studio.problems import CommandError
-from niwaki.studio.worker import asks, models, runs, shapes, variety
+from niwaki.studio.worker import asks, fitting, models, prior, runs, shapes, variety
+from niwaki.studio.worker.places import as_drawn
 from niwaki.studio.worker.thinning import GHOST_TRIANGLES
 
 #: Rounds of `improve` at effort 1: its default.
 ROUNDS = 15
 #: Particles for growing a part again.
 REGROWTH_PARTICLES = 100
+#: The most primitives of a run of the model that is drawn with smooth normals.
+SMOOTH = 300
 
 
 def ghost(job: Ghost, send: Any) -> Answer:
-    """Send the meshes of the target and of the obstacles."""
+    """Send the meshes of the target and of the obstacles, the mask of a sketch, and a run of the model."""
     model = models.reference(job.question.model)
     ask = job.question.ask
     aim = None if ask.sketch is not None else ask.target or asks.usual(model)
-    if aim is not None:
-        _solid(aim, job.id, send, role="ghost")
+    bounds = None if aim is None else _solid(aim, job.id, send, role="ghost")
     for number, obstacle in enumerate(ask.obstacles):
         _solid(obstacle, job.id, send, role="obstacle", number=number)
+    if ask.sketch is not None:
+        mask = asks.mask(ask.sketch)
+        rows, columns = mask.shape
+        send(Mask(job.id, columns, rows), mask.tobytes())
+    run = prior.run(model, asks.arguments(job.question))
+    if run is not None:
+        _prior(run, model, "prior", job.id, send)
+    return Answer(sizes=fitting.sizes(run, aim, bounds))
+
+
+def glimpse(job: Glimpse, send: Any) -> Answer:
+    """Send a run of a model of the list."""
+    model = models.reference(job.reference)
+    run = prior.run(model, asks.arguments(Question(job.reference, {}, Ask(), Settings())))
+    if run is not None:
+        _prior(run, model, "glimpse", job.id, send, job.reference)
     return Answer()
 
 
-def _solid(ask: TargetAsk, job: int, send: Any, **header: Any) -> None:
+def _prior(
+    run: Sample, model: ModelReference, role: str, job: int, send: Any, source: str | None = None
+) -> None:
+    """Send the shape of a run of the model without a target, with smooth normals unless it is large."""
+    detail: Literal["light", "fine"] = "fine" if role == "prior" and run.primitives <= SMOOTH else "light"
+    send(*shapes.shape(run.scene, detail, role=role, source=source, id=job, is_flat=model.style is not None))
+
+
+def _solid(ask: TargetAsk, job: int, send: Any, **header: Any) -> NDArray[np.float64]:
+    """Send the mesh of a solid at its place; return its bounds."""
     ghost, foot = asks.shown(ask)
     many = ghost.triangles > GHOST_TRIANGLES
     note = f"shown with fewer triangles than its {ghost.triangles:,}" if many else ""
@@ -46,6 +90,7 @@ def _solid(ask: TargetAsk, job: int, send: Any, **header: Any) -> None:
     )
     shape.id = job
     send(shape, payload)
+    return ghost.bounds
 
 
 def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
@@ -109,7 +154,9 @@ def change(job: Change, send: Any) -> Answer:
     for address in job.changes:
         if address not in choices:
             raise CommandError("no-choice", f"the result has no choice `{address}`")
-    choices |= runs.values(job.changes)
+    families = original.families
+    for address, value in runs.values(job.changes).items():
+        choices[address] = as_drawn(families.get(address, ""), value, choices[address])
     with translated(search.model.name, choices=choices):
         trace = search.task.replay(choices, search.seed)
     sample = Sample.of_trace(trace, search, original.seed)

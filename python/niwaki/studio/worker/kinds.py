@@ -15,6 +15,11 @@ def of_question(question: Question) -> ModuleType:
     return structures if models.is_structure(question.model) else jobs
 
 
+def of_model(reference: str) -> ModuleType:
+    """Return the module that shows a model of the list."""
+    return coloring if coloring.is_drawing(reference) else jobs
+
+
 def of_run(source: str) -> ModuleType:
     """Return the module that shows, describes and holds a result."""
     return coloring if coloring.is_coloring(source) else runs

@@ -111,6 +111,8 @@ def _dispatch(job: messages.AnyJob, send: Send, flag: StopFlag) -> Any:
             return offers.loaded(job)
         case messages.Ghost():
             return kinds.of_question(job.question).ghost(job, send)
+        case messages.Glimpse():
+            return kinds.of_model(job.reference).glimpse(job, send)
         case messages.Grow():
             return kinds.of_question(job.question).grow(job, send, flag.check)
         case messages.GrowValues():

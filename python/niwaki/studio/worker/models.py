@@ -10,6 +10,7 @@ from typing import Any
 from niwaki import stacks
 from niwaki.lang.lower import lowered
 from niwaki.lang.models import Model
+from niwaki.shell import references
 from niwaki.shell.references import ModelReference, find
 from niwaki.studio.messages import ModelInfo, Parameter
 from niwaki.studio.problems import CommandError
@@ -50,6 +51,15 @@ def reference(name: str) -> ModelReference:
     return entry[1]
 
 
+def names_in(file: str) -> list[str]:
+    """Return the references of the models of a file that was named at the start."""
+    place = Path(file)
+    if place.suffix != ".py" or not place.is_file():
+        return [file]
+    with loading(place):
+        return references.names_in(file)
+
+
 def _structure(name: str) -> ModelReference | None:
     """Return a structure model of the package."""
     model = getattr(stacks, name.removeprefix(STACK), None) if name.startswith(STACK) else None
@@ -84,7 +94,13 @@ def parameters(model: Model[..., Any]) -> list[Parameter]:
     """List the parameters of a model, with the defaults that a page can show."""
     rows = []
     for parameter in inspect.signature(model.function).parameters.values():
-        is_required = parameter.default is inspect.Parameter.empty
-        is_plain = isinstance(parameter.default, (bool, int, float, str))
-        rows.append(Parameter(parameter.name, parameter.default if is_plain else None, is_required))
+        default = parameter.default
+        is_required = default is inspect.Parameter.empty
+        is_plain = isinstance(default, (bool, int, float, str))
+        is_number = isinstance(default, int | float) and not isinstance(default, bool)
+        # With `from __future__ import annotations` an annotation is a text.
+        is_real = parameter.annotation in (float, "float") or isinstance(default, float)
+        rows.append(
+            Parameter(parameter.name, default if is_plain else None, is_required, is_number and not is_real)
+        )
     return rows

@@ -13,7 +13,7 @@ def listed(job: ListModels) -> Answer:
     """List the models, with the models of files first."""
     infos = []
     for file in job.files:
-        infos.append(models.info(models.reference(file), file, is_file=True))
+        infos += [models.info(models.reference(name), name, is_file=True) for name in models.names_in(file)]
     for entry in gallery.entries():
         # A model with neither a target nor a drawing makes no scene to show.
         if entry.target_name is not None or entry.draws is not None:

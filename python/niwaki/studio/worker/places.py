@@ -5,14 +5,22 @@ The model runs once more as plain Python with the choices of a result; each word
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from niwaki import _engine
 from niwaki.errors.source import Span
 from niwaki.lang.models import Model
 from niwaki.lang.plain import PlainRun
-from niwaki.words.distributions import Distribution
+from niwaki.words.distributions import FAMILIES, Distribution
 from niwaki.words.running import current
+
+#: Where the draws of each family lie, by the family's name.
+SPACES = {family.family: _engine.FAMILIES[family.family][3] for family in FAMILIES}
+#: The spaces whose draws are whole numbers, and the spaces whose draws are real numbers.
+WHOLE = ("Integers", "Categories")
+REAL = ("Bounded", "Line", "Positive", "Unit", "Circle")
 
 
 class PlaceRecorder(PlainRun):
@@ -76,5 +84,30 @@ def slider(dist: Distribution | None, value: Any) -> tuple[float, float, bool] |
         case _:
             reach = max(1.0, 2.0 * abs(value))
             low, high = (0.0 if value >= 0 else -reach), reach
-    whole = isinstance(value, int)
-    return float(min(low, value)), float(max(high, value)), whole
+    space = SPACES[dist.family]
+    # A mixture draws whole or real numbers, as its components do.
+    is_whole = space in WHOLE or (space not in REAL and isinstance(value, int))
+    return float(min(low, value)), float(max(high, value)), is_whole
+
+
+def as_drawn(family: str, value: Any, present: Any) -> Any:
+    """Return a value of a choice in the type of its family's draws: JSON writes the real number 2.0 as 2.
+
+    Parameters
+    ----------
+    family
+        The family of the choice.
+    value
+        The value, as it came.
+    present
+        The present value of the choice, for families whose draws have the type of a component's draws.
+    """
+    # A whole number beyond all floats stays as it is.
+    if isinstance(value, bool) or not isinstance(value, int | float) or abs(value) > sys.float_info.max:
+        return value
+    space = SPACES.get(family)
+    if space in REAL or (space not in WHOLE and isinstance(present, float)):
+        return float(value)
+    if space == "Booleans" or isinstance(present, bool):
+        return bool(value)
+    return int(value) if float(value).is_integer() else value

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import json
 from collections import OrderedDict
-from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 import niwaki as nw
 from niwaki.errors.files import ensure_folder, write_whole
-from niwaki.lang.labels import Labels
 from niwaki.result import Result, Sample
 from niwaki.search.data import Reader, Writer
 from niwaki.shell import run_files
@@ -125,18 +123,8 @@ def describe(job: DescribeRun, send: Any) -> Answer:
         )
     parts = [PartInfo(part.address, _place(recorder.places.get(part.address))) for part in result.parts]
     addresses = [*choices, *(part.address for part in parts)]
-    send(Described(job.id, job.key, infos, parts, _labels(labels, addresses)))
+    send(Described(job.id, job.key, infos, parts, labels.tree(addresses)))
     return Answer()
-
-
-def _labels(labels: Labels, addresses: Iterable[str]) -> dict[str, tuple[str, str]]:
-    """Return the labels of addresses, and of the calls and iterations around them, with their last steps."""
-    found: dict[str, tuple[str, str]] = {}
-    for address in addresses:
-        while address and address not in found:
-            found[address] = labels.label(address), labels.short(address)
-            address = address.rpartition("/")[0]
-    return found
 
 
 def shown(value: Any) -> Any:

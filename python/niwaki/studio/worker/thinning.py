@@ -7,9 +7,9 @@ HASH.json        the bounds and the number of triangles of the mesh
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import msgspec
 import numpy as np
@@ -59,6 +59,13 @@ class Ghost:
         vertices, faces = thinned(np.asarray(target.vertices), np.asarray(target.faces))
         return cls(vertices, faces, np.asarray(target.bounds), len(target.faces))
 
+    def stood(self, up: Literal["y", "z"]) -> Ghost:
+        """Return the ghost stood up, if its z axis points up."""
+        if up == "y":
+            return self
+        corners = stood(self.bounds)
+        return replace(self, vertices=stood(self.vertices), bounds=np.sort(corners, axis=0))
+
     def save(self, mesh: Path) -> None:
         """Write the ghost beside its mesh."""
         light = trimesh.Trimesh(self.vertices, self.faces, process=False)
@@ -81,6 +88,12 @@ class Ghost:
         return cls(
             np.asarray(light.vertices), np.asarray(light.faces), np.array(about.bounds), about.triangles
         )
+
+
+def stood(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Turn points about x so that their z axis points up."""
+    x, y, z = np.asarray(points, dtype=np.float64).T
+    return np.stack([x, z, -y], axis=1)
 
 
 def stl(mesh: trimesh.Trimesh) -> bytes:

@@ -139,8 +139,16 @@ OPTIONS: dict[str, Option] = {
         "Strictness of the match; smaller is stricter. Default: 0.02, drawings 0.014.",
         "NUMBER",
     ),
-    "rule": Option("word", "Which parts count as intersecting.", "solid|surface", default="solid"),
+    "rule": Option(
+        "word",
+        "Which parts count as intersecting; none: parts may overlap.",
+        "solid|surface|none",
+        default="solid",
+    ),
 }
+
+#: The rule under which parts may overlap: then no sketch forbids it.
+FREE = "none"
 
 #: Options that may name a file.
 FILES = tuple(
@@ -193,6 +201,8 @@ def sketches_of(
             raise InputError("no-target", name=name)
     if not any(sketch in DRAWN for sketch, _ in asks):
         asks.append(("no_self_intersection", {}))
+    if options.get("rule") == FREE:
+        asks = [ask for ask in asks if ask[0] != "no_self_intersection"]
     for sketch, arguments in asks:
         arguments |= {
             key: options[key] for key in options if not OPTIONS[key].asks and sketch in parameters(key)

@@ -73,6 +73,8 @@ export class Stage {
   private isFramed = false;
   /** Whether the first shape of the model has arrived, or the user has moved the camera. */
   private isSettled = false;
+  /** Pixels at the top and the bottom of the canvas over which bars of the page lie. */
+  covered = { top: 0, bottom: 0 };
   /** The number of frames drawn so far. */
   frames = 0;
 
@@ -243,12 +245,13 @@ export class Stage {
 
   /** Shows the target or an obstacle at its place. */
   setSolid(name: string, header: Shape, payload: ArrayBuffer, placement: TargetAsk | null): void {
+    const isOther = kindOf(name) === "target" && this.objects.source(name) !== placement?.source;
     this.objects.setSolid(name, header, payload, placement);
     if (kindOf(name) === "target") {
       this.ghostBox.makeEmpty();
       if (header.triangles > 0) this.ghostBox.set(new Vector3(...header.low), new Vector3(...header.high));
     }
-    this.onContent();
+    this.onContent(isOther);
   }
 
   /** Sets the goals other than solids: floor, light and camera. */
@@ -343,12 +346,13 @@ export class Stage {
     this.sun.shadow.camera.updateProjectionMatrix();
   }
 
-  /** Moves light and ground; moves the camera if it has shown nothing of this model before. */
-  private onContent(): void {
+  /** Moves light and ground; moves the camera if it has shown no result of this model, and other contents do not fit. */
+  private onContent(isOther = true): void {
     this.settle();
-    const isFirst = this.piece !== null && !this.isSettled;
-    this.isSettled ||= isFirst;
-    if (!this.isFramed || (isFirst && this.ask.sketch == null && !this.seesAll)) this.fit();
+    const wasSettled = this.isSettled;
+    this.isSettled ||= this.piece !== null && this.piece.header.role !== "prior";
+    const isOpen = !wasSettled && isOther && this.ask.sketch == null;
+    if (!this.isFramed || (isOpen && !this.seesAll)) this.fit();
     this.draw();
   }
 
@@ -361,15 +365,39 @@ export class Stage {
   fit(): void {
     const box = this.bounds();
     if (box.isEmpty()) return;
-    this.orbit.target.copy(frame(this.camera, box.min, box.max, this.piece?.header.is_flat ?? false));
+    const high = Math.max(this.canvas.clientHeight, 1);
+    const free = { top: Math.min(this.covered.top / high, 0.2), bottom: Math.min(this.covered.bottom / high, 0.2) };
+    this.orbit.target.copy(frame(this.camera, box.min, box.max, this.piece?.header.is_flat ?? false, 0.06, free));
     this.orbit.update();
     this.isFramed = true;
     this.draw();
   }
 
+  /** Moves the camera to the next contents. */
+  followNext(): void {
+    this.isFramed = false;
+  }
+
+  /** The box of the contents on the canvas, CSS pixels: left, top, right, bottom. */
+  box(): [number, number, number, number] {
+    const { min, max } = this.bounds();
+    this.camera.updateMatrixWorld();
+    const points = [0, 1, 2, 3, 4, 5, 6, 7].map((k) =>
+      this.pixel(new Vector3(k & 1 ? max.x : min.x, k & 2 ? max.y : min.y, k & 4 ? max.z : min.z).project(this.camera)),
+    );
+    const [x, y] = [points.map(([x]) => x), points.map(([, y]) => y)];
+    return [Math.min(...x), Math.min(...y), Math.max(...x), Math.max(...y)];
+  }
+
+  /** The box beside which new objects are placed: of the target, or of the model without a target. */
+  private home(): Box3 {
+    const isPrior = this.piece?.header.role === "prior";
+    return isPrior && !this.ghostBox.isEmpty() ? this.ghostBox.clone() : this.bounds();
+  }
+
   /** Returns a solid above the contents, where the camera sees it. */
   above(source: string): TargetAsk {
-    const box = this.bounds();
+    const box = this.home();
     if (box.isEmpty()) return { source };
     const side = Math.max(round(box.getSize(new Vector3()).length() / 8), 1e-3);
     const middle = box.getCenter(new Vector3());
@@ -378,7 +406,7 @@ export class Stage {
 
   /** The lowest height of the contents. */
   bottom(): number {
-    const box = this.bounds();
+    const box = this.home();
     return box.isEmpty() ? 0 : Math.floor(box.min.y * 100) / 100;
   }
 

@@ -1,8 +1,8 @@
 // The bar at the top: undo and redo, tools, export, theme.
 
-import { useState } from "preact/hooks";
 import * as store from "../store";
 import { Icon } from "./icons";
+import { Menu } from "./menu";
 
 const FORMATS = [
   ["glb", "GLB", "for Blender, engines, the web"],
@@ -19,7 +19,6 @@ const MORE = {
 
 export function Bar({ onFit }: { onFit: () => void }) {
   const view = store.view.value;
-  const [isExporting, setExporting] = useState(false);
   const isFlat = view?.model?.draws != null;
   const kind = store.kind.value;
   const formats = kind !== "scene" ? MORE[kind] : isFlat ? ([["svg", "SVG", "the drawing"], ...FORMATS.slice(3)] as const) : FORMATS;
@@ -78,7 +77,6 @@ export function Bar({ onFit }: { onFit: () => void }) {
         )}
       </div>
       <span class="grow" />
-      {!store.isOpen.value && <span class="warning" role="status">not connected</span>}
       <button
         class="icon-button"
         title={store.theme.value === "light" ? "Dark theme" : "Light theme"}
@@ -86,33 +84,16 @@ export function Bar({ onFit }: { onFit: () => void }) {
       >
         <Icon name={store.theme.value === "light" ? "moon" : "sun"} />
       </button>
-      <div class="menu-holder">
-        <button
-          class="button"
-          aria-haspopup="menu"
-          aria-expanded={isExporting}
-          disabled={store.picked.value === null}
-          onClick={() => setExporting(!isExporting)}
-        >
-          <Icon name="save" /> Export
-        </button>
-        {isExporting && (
-          <div class="menu" role="menu" onMouseLeave={() => setExporting(false)}>
-            {formats.map(([format, name, use]) => (
-              <button
-                key={format}
-                role="menuitem"
-                onClick={() => {
-                  setExporting(false);
-                  void store.download(format);
-                }}
-              >
-                <b>{name}</b> <span>{use}</span>
-              </button>
-            ))}
-          </div>
-        )}
-      </div>
+      <Menu
+        look="button"
+        face={
+          <>
+            <Icon name="save" /> Export
+          </>
+        }
+        isDisabled={store.picked.value === null}
+        items={formats.map(([format, name, use]) => ({ name, use, act: () => void store.download(format) }))}
+      />
     </header>
   );
 }

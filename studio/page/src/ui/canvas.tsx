@@ -2,7 +2,7 @@
 
 import { effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import type { Key } from "../messages";
+import type { Key, Shape } from "../messages";
 import * as store from "../store";
 import { isBelow, Stage } from "../view";
 import { Drag } from "./drag";
@@ -28,6 +28,8 @@ export function Canvas() {
       store.ask,
       () => (store.eye.value = stage.eye()),
     );
+    // The bar of the growth lies over the foot of the scene.
+    stage.covered = { top: 8, bottom: 60 };
     drag = new Drag(stage);
     const watch = new ResizeObserver(([entry]) => stage.resize(entry.contentRect.width, entry.contentRect.height));
     watch.observe(holder.current!);
@@ -62,6 +64,7 @@ export function Canvas() {
       <Legend />
       <Sides />
       <Growth />
+      {store.isPrior.value && <p class="hint">A run of the model, before any search.</p>}
       <Problem />
       <Notices />
       <Offers />
@@ -85,11 +88,18 @@ function onClick(x: number, y: number): void {
 
 /** Keeps the stage up to date with the messages of the studio. */
 function follow(): void {
+  // A run of the model, which is shown while there is no result.
+  let prior: [Shape, ArrayBuffer] | null = null;
+  const showPrior = () => put(prior?.[0] ?? null, prior?.[1] ?? new ArrayBuffer(0));
   store.onShape((shape, payload) => {
     if (shape.role === "ghost") {
       stage.setSolid("target", shape, payload, store.target.value);
       store.shownTarget.value = shape.source ?? null;
       if (shape.note) store.note(shape.note);
+    } else if (shape.role === "prior") {
+      prior = shape.triangles > 0 ? [shape, payload] : null;
+      store.hasPrior.value = prior !== null;
+      if (store.picked.value === null && !store.isSearching.value) showPrior();
     } else if (shape.role === "obstacle") {
       stage.setSolid(`obstacle ${shape.number}`, shape, payload, store.view.value?.ask.obstacles?.[shape.number] ?? null);
     } else if (shape.role === "best" || shape.role === "moving") {
@@ -128,7 +138,7 @@ function follow(): void {
     if (store.isSearching.value || name === last) return;
     last = name;
     if (key === null) {
-      put(null, new ArrayBuffer(0));
+      showPrior();
       store.described.value = store.judged.value = store.palette.value = null;
       return;
     }
@@ -148,6 +158,9 @@ function follow(): void {
     const reference = store.view.value?.model?.reference ?? "";
     if (reference !== model && model !== "") {
       stage.forget();
+      prior = null;
+      store.hasPrior.value = false;
+      if (store.picked.value === null) showPrior();
       store.level.value = store.part.value = null;
     }
     model = reference;

@@ -23,7 +23,7 @@ export class Drag {
 
   /** Grabs the selected part if the pointer goes down on it; returns whether it does. */
   press(x: number, y: number): boolean {
-    const hit = store.tool.value === "look" && !store.isSearching.value ? this.stage.hitAt(x, y) : null;
+    const hit = store.tool.value === "look" && !store.isSearching.value && store.picked.value !== null ? this.stage.hitAt(x, y) : null;
     if (hit === null || hit.address !== store.part.value) return false;
     store.offers.value = [];
     this.grip = { part: hit.address, grab: hit.point, from: [x, y], isMoving: false };
@@ -72,7 +72,10 @@ export class Drag {
     store.offers.value = outcome?.offers ?? [];
     store.hasDragged.value = (outcome?.changes.length ?? 0) > 0;
     if (outcome === null || outcome.reason !== "") {
-      if (outcome !== null) store.note(outcome.reason);
+      if (outcome !== null) {
+        const sentence = outcome.changes.length === 0 ? "This part cannot be moved there." : "The part has come as near as it can.";
+        store.note(`${sentence}\n${outcome.reason}`);
+      }
       if (outcome === null || outcome.changes.length === 0) showActive();
     }
   }

@@ -6,6 +6,7 @@ import { onPictureOf, pictureOf } from "../pictures";
 import * as store from "../store";
 import { HEIGHT, later, thumbnail, WIDTH } from "../view";
 import { Icon } from "./icons";
+import { title } from "./objects";
 
 /** Shapes by result, and functions that wait for them. */
 const shapes = new Map<string, [Shape, ArrayBuffer]>();
@@ -25,6 +26,7 @@ export function Gallery() {
   const view = store.view.value;
   const strip = useRef<HTMLDivElement>(null);
   const results = view?.results ?? [];
+  if (results.length === 0 && store.glimpses.value.size > 0 && !store.isSearching.value) return <Models />;
   const move = (event: KeyboardEvent) => {
     const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (by === undefined) return;
@@ -42,6 +44,36 @@ export function Gallery() {
         <Card key={store.nameOf(outcome.key)} outcome={outcome} number={place + 1} />
       ))}
     </div>
+  );
+}
+
+/** Models to begin with, each with a picture of a run, in place of results that are not there yet. */
+function Models() {
+  const present = store.view.value?.model?.reference;
+  return (
+    <div class="gallery models" role="group" aria-label="Models to begin with">
+      {[...store.glimpses.value].map(([reference, [shape, payload]]) => (
+        <ModelCard key={reference} reference={reference} shape={shape} payload={payload} isPresent={reference === present} />
+      ))}
+    </div>
+  );
+}
+
+function ModelCard({ reference, shape, payload, isPresent }: { reference: string; shape: Shape; payload: ArrayBuffer; isPresent: boolean }) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const theme = store.theme.value;
+  useEffect(() => {
+    later(() => {
+      if (canvas.current === null) return;
+      thumbnail(canvas.current, shape, payload, theme, shape.low, shape.high);
+      canvas.current.dataset.drawn = "yes";
+    });
+  }, [shape, theme]);
+  return (
+    <button class="card" aria-pressed={isPresent} onClick={() => void store.tell({ kind: "model", reference })}>
+      <canvas ref={canvas} width={WIDTH} height={HEIGHT} aria-hidden="true" />
+      <span class="caption">{title(reference).replace(/\.py$/, "").replace(/-/g, " ")}</span>
+    </button>
   );
 }
 

@@ -99,10 +99,7 @@ export function Inspector() {
 }
 
 /** The label of a group of choices, as a heading. */
-function headOf(call: string, here: string): string {
-  const text = store.labelBelow(call, here);
-  return text.slice(0, 1).toUpperCase() + text.slice(1);
-}
+const headOf = (call: string, here: string): string => store.capital(store.labelBelow(call, here));
 
 /** The calls around the selection, outermost first. */
 function Levels({ here }: { here: string }) {

@@ -1,11 +1,12 @@
 // A row for each object of the scene beside its target: floor, obstacles, light and camera of a sketch.
 
-import { useRef, useState } from "preact/hooks";
+import { useRef } from "preact/hooks";
 import * as store from "../store";
 import { kindOf, MODES, type Mode, numberOf } from "../view";
 import { stage } from "./canvas";
 import { Field } from "./fields";
 import { Icon } from "./icons";
+import { Menu } from "./menu";
 
 export const title = (name: string): string => {
   const bare = name.replace(/^.*\//, "").replace(/^(gallery|stack|drawing):/, "").replace(/_/g, " ");
@@ -51,7 +52,6 @@ const label = (name: string): string => {
 export function Objects() {
   const { ask, model } = store.view.value!;
   const input = useRef<HTMLInputElement>(null);
-  const [isAdding, setAdding] = useState(false);
   if (model?.draws) return null;
   const obstacles = ask.obstacles ?? [];
   const remove = (number: number) => {
@@ -59,7 +59,6 @@ export function Objects() {
     store.ask({ obstacles: obstacles.filter((_, k) => k !== number) });
   };
   const add = (source: string) => {
-    setAdding(false);
     if (source === "mesh") input.current?.click();
     else if (source === "floor") store.whenTargetIsShown(() => store.ask({ floor: stage.bottom() }));
     else store.whenTargetIsShown(() => store.avoid(stage.above(source)));
@@ -68,28 +67,21 @@ export function Objects() {
     <section aria-label="Objects of the scene">
       <div class="head">
         <h2>In the scene</h2>
-        <div class="menu-holder">
-          <button class="icon-button small" title="Add an object" aria-haspopup="menu" aria-expanded={isAdding} onClick={() => setAdding(!isAdding)}>
-            <Icon name="plus" />
-          </button>
-          {isAdding && (
-            <div class="menu narrow" role="menu" onMouseLeave={() => setAdding(false)}>
-              {ask.floor == null && (
-                <button role="menuitem" onClick={() => add("floor")}>
-                  <b>Floor</b> <span>all parts stay above it</span>
-                </button>
-              )}
-              {["box", "ball", "column"].map((source) => (
-                <button key={source} role="menuitem" onClick={() => add(source)}>
-                  <b>{source[0].toUpperCase() + source.slice(1)}</b> <span>an obstacle</span>
-                </button>
-              ))}
-              <button role="menuitem" onClick={() => add("mesh")}>
-                <b>Mesh…</b> <span>an obstacle</span>
-              </button>
-            </div>
-          )}
-        </div>
+        <Menu
+          look="icon-button small"
+          title="Add an object"
+          isNarrow
+          face={<Icon name="plus" />}
+          items={[
+            ...(ask.floor == null ? [{ name: "Floor", use: "all parts stay above it", act: () => add("floor") }] : []),
+            ...["box", "ball", "column"].map((source) => ({
+              name: source[0].toUpperCase() + source.slice(1),
+              use: "an obstacle",
+              act: () => add(source),
+            })),
+            { name: "Mesh…", use: "an obstacle", act: () => add("mesh") },
+          ]}
+        />
       </div>
       {ask.floor == null && obstacles.length === 0 && ask.sketch == null && (
         <p class="quiet">The scene has only its target. Add a floor or an obstacle.</p>

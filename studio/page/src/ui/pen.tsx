@@ -1,7 +1,7 @@
 // The pen: strokes over the view become a silhouette to grow into, seen by the present camera.
 
 import { useEffect, useRef } from "preact/hooks";
-import type { Difference, Eye, Sketch, Stroke } from "../messages";
+import type { Difference, Eye, Mask, Sketch, Stroke } from "../messages";
 import * as store from "../store";
 import { KINDS, pixels } from "../view";
 import { stage } from "./canvas";
@@ -18,11 +18,14 @@ export function Pen() {
   const eye = store.eye.value;
   const isSeen = sketch !== null && (sketch.camera == null || (eye !== null && sameEye(sketch.camera, eye)));
 
-  const redraw = (strokes: Stroke[]) => {
+  const scored = store.mask.value;
+  const inside = sketch?.inside ?? store.isInside.value;
+  const redraw = (strokes: Stroke[], scored: typeof store.mask.value) => {
     const page = canvas.current!;
     page.width = page.clientWidth * devicePixelRatio;
     page.height = page.clientHeight * devicePixelRatio;
     const pen = page.getContext("2d")!;
+    if (scored !== null) drawMask(pen, scored.header, scored.marks, page.height, getComputedStyle(page).color);
     pen.lineCap = pen.lineJoin = "round";
     pen.strokeStyle = getComputedStyle(page).color;
     for (const stroke of strokes) {
@@ -38,9 +41,11 @@ export function Pen() {
   const isCompared =
     isSeen && difference?.header.is_picture === true && difference.header.low[0] === difference.header.high[0];
   useEffect(() => {
-    redraw(isSeen && !isCompared ? sketch!.strokes : []);
+    // The sketch is shown as it is scored; the strokes, until this picture arrives.
+    const isDrawn = isSeen && !isCompared;
+    redraw(isDrawn && scored === null ? sketch!.strokes : [], isDrawn ? scored : null);
     if (isCompared) overlay(canvas.current!, difference!.header, difference!.marks);
-  }, [sketch, isSeen, isCompared, difference, store.theme.value]);
+  }, [sketch, scored, isSeen, isCompared, difference, store.theme.value]);
 
   const point = (event: PointerEvent): [number, number] => {
     const high = canvas.current!.clientHeight;
@@ -54,7 +59,7 @@ export function Pen() {
     const strokes = isSeen ? sketch!.strokes : [];
     const camera = isFlat ? null : stage.eye();
     const kind = isFlat ? "silhouette" : store.sketchKind.value;
-    const drawn: Sketch = { strokes: [...strokes, stroke], aspect: clientWidth / clientHeight, camera, kind };
+    const drawn: Sketch = { strokes: [...strokes, stroke], aspect: clientWidth / clientHeight, camera, kind, inside };
     // The first stroke of a shadow moves the light so that the camera sees the shadow.
     const light = kind === "shadow" && sketch?.kind !== "shadow" ? { light: stage.lightFromBehind() } : {};
     store.ask({ sketch: drawn, ...light });
@@ -63,7 +68,7 @@ export function Pen() {
     <>
       <canvas
         ref={canvas}
-        class={isDrawing ? "pen active" : "pen"}
+        class={`pen${isDrawing ? " active" : ""}${isCompared ? " compared" : ""}`}
         aria-hidden={!isDrawing}
         onPointerDown={(event) => {
           event.currentTarget.setPointerCapture(event.pointerId);
@@ -72,7 +77,7 @@ export function Pen() {
         onPointerMove={(event) => {
           if (current.current === null) return;
           current.current.points.push(point(event));
-          redraw([...(isSeen ? sketch!.strokes : []), current.current]);
+          redraw([...(isSeen ? sketch!.strokes : []), current.current], isSeen ? scored : null);
         }}
         onPointerUp={finish}
         onPointerCancel={finish}
@@ -90,6 +95,17 @@ export function Pen() {
               aria-label="Width of the pen"
               onInput={(event) => (store.penWidth.value = Number(event.currentTarget.value))}
             />
+          </label>
+          <label title="A closed outline means its inside; an open stroke means itself">
+            <input
+              type="checkbox"
+              checked={inside}
+              onChange={(event) => {
+                store.isInside.value = event.currentTarget.checked;
+                if (sketch !== null) store.ask({ sketch: { ...sketch, inside: store.isInside.value } });
+              }}
+            />
+            fill outlines
           </label>
           {!isFlat && (
             <select
@@ -119,6 +135,20 @@ export function Pen() {
       )}
     </>
   );
+}
+
+/** Draws the pixels of a sketch as they are scored. */
+function drawMask(pen: CanvasRenderingContext2D, { width, height }: Mask, marks: Uint8Array, high: number, color: string): void {
+  const small = new OffscreenCanvas(width, height);
+  const inner = small.getContext("2d")!;
+  const image = inner.createImageData(width, height);
+  marks.forEach((mark, k) => (image.data[4 * k + 3] = 255 * mark));
+  inner.putImageData(image, 0, 0);
+  inner.globalCompositeOperation = "source-in";
+  inner.fillStyle = color;
+  inner.fillRect(0, 0, width, height);
+  pen.imageSmoothingQuality = "high";
+  pen.drawImage(small, 0, 0, (high * width) / height, high);
 }
 
 /** Draws the pixels of a difference over the view of its camera. */

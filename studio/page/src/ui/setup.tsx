@@ -6,6 +6,7 @@ import { Drop } from "./drop";
 import { Field } from "./fields";
 import { Icon } from "./icons";
 import { Handles, Objects, title } from "./objects";
+import { stage } from "./canvas";
 
 const GROUPS: [string, (model: ModelInfo) => boolean][] = [
   ["Your models", ({ is_file }) => is_file],
@@ -23,44 +24,47 @@ export function Setup() {
   const models = isListed ? view.models : [...view.models, model];
   return (
     <aside class="side" aria-label="Model and target">
-      <section>
-        <h2>{store.kind.value === "coloring" ? "Drawing" : "Model"}</h2>
-        <select
-          aria-label="Model"
-          value={view.model?.reference ?? ""}
-          onChange={(event) => void store.tell({ kind: "model", reference: event.currentTarget.value })}
-        >
-          {GROUPS.map(([name, isIn]) => {
-            const members = models.filter(isIn);
-            return members.length === 0 ? null : (
-              <optgroup key={name} label={name}>
-                {members.map(({ reference }) => (
-                  <option key={reference} value={reference}>
-                    {title(reference)}
-                  </option>
-                ))}
-              </optgroup>
-            );
-          })}
-        </select>
-        <p class="quiet">{view.model?.title}</p>
-        {(view.model?.parameters ?? [])
-          .filter((parameter) => parameter.default !== null)
-          .map((parameter) => (
-            <Argument key={parameter.name} parameter={parameter} />
-          ))}
-        {view.model?.is_file && isAnyChanged(view) && (
-          <div class="actions">
-            <button class="button small" onClick={() => void store.propose()} title="Show the change of the model's file without writing it">
-              Make these the defaults
-            </button>
-          </div>
-        )}
-        {store.kind.value === "coloring" && <Drop kind="drawing" />}
-      </section>
-      {store.kind.value === "scene" && <Target />}
-      {store.kind.value === "scene" && <Objects />}
-      <Search settings={view.settings} />
+      <div class="scroll">
+        <section>
+          <h2>{store.kind.value === "coloring" ? "Drawing" : "Model"}</h2>
+          <select
+            aria-label="Model"
+            value={view.model?.reference ?? ""}
+            onChange={(event) => void store.tell({ kind: "model", reference: event.currentTarget.value })}
+          >
+            {GROUPS.map(([name, isIn]) => {
+              const members = models.filter(isIn);
+              return members.length === 0 ? null : (
+                <optgroup key={name} label={name}>
+                  {members.map(({ reference }) => (
+                    <option key={reference} value={reference}>
+                      {title(reference)}
+                    </option>
+                  ))}
+                </optgroup>
+              );
+            })}
+          </select>
+          <p class="quiet">{view.model?.title}</p>
+          {(view.model?.parameters ?? [])
+            .filter((parameter) => parameter.default !== null)
+            .map((parameter) => (
+              <Argument key={parameter.name} parameter={parameter} />
+            ))}
+          {view.model?.is_file && isAnyChanged(view) && (
+            <div class="actions">
+              <button class="button small" onClick={() => void store.propose()} title="Show the change of the model's file without writing it">
+                Make these the defaults
+              </button>
+            </div>
+          )}
+          {store.kind.value === "coloring" && <Drop kind="drawing" />}
+        </section>
+        {store.kind.value === "scene" && <Target />}
+        {store.kind.value === "scene" && <Objects />}
+        <Search settings={view.settings} />
+      </div>
+      <Start />
     </aside>
   );
 }
@@ -72,7 +76,6 @@ const isAnyChanged = ({ model, arguments: values }: View): boolean =>
 function Argument({ parameter }: { parameter: Parameter }) {
   const value = store.view.value!.arguments[parameter.name] ?? parameter.default;
   const set = (argument: unknown) => void store.tell({ kind: "set", arguments: { [parameter.name]: argument } });
-  const isWhole = Number.isInteger(parameter.default);
   if (typeof parameter.default === "boolean") {
     return (
       <label class="row">
@@ -92,7 +95,7 @@ function Argument({ parameter }: { parameter: Parameter }) {
   return (
     <label class="row">
       <span>{parameter.name}</span>
-      <Field type="number" step={isWhole ? 1 : "any"} value={value} onEnd={(text) => text !== "" && set(Number(text))} />
+      <Field type="number" step={parameter.is_whole ? 1 : "any"} value={value} onEnd={(text) => text !== "" && set(Number(text))} />
     </label>
   );
 }
@@ -142,6 +145,16 @@ function Target() {
       {target !== null && (
         <div class="group" role="group" aria-label="Place the target">
           <Handles name="target" />
+          {target.source.startsWith("upload:") && (
+            <button
+              class="icon-button small"
+              title={target.up === "z" ? "Lay the mesh down again: its y axis points up" : "Stand the mesh up: its z axis points up"}
+              aria-pressed={target.up === "z"}
+              onClick={() => store.ask({ target: { ...target, up: target.up === "z" ? "y" : "z" } })}
+            >
+              <Icon name="upright" />
+            </button>
+          )}
           {view.ask.target != null && (
             <button class="text-button" onClick={() => store.ask({ target: null })}>
               reset
@@ -149,8 +162,41 @@ function Target() {
           )}
         </div>
       )}
+      <Sizes />
       <Drop kind="mesh" />
     </section>
+  );
+}
+
+const size = (sides: [number, number, number]): string => sides.map((side) => Number(side.toPrecision(2)).toLocaleString("en")).join(" × ");
+
+/** The sizes of model and target, and placements that make the target fit. */
+function Sizes() {
+  const { model, target, offers } = store.view.value!.sizes;
+  if (model === null || target === null) return null;
+  return (
+    <div class="sizes" role="group" aria-label="Sizes">
+      <dl title="Width, height and depth in scene units; the model's are those of a run">
+        <dt>target</dt>
+        <dd>{size(target)}</dd>
+        <dt>model</dt>
+        <dd>{size(model)}</dd>
+      </dl>
+      {offers.map(({ text, label, target }) => (
+        <p key={label} class="unfit" role="status">
+          {text}
+          <button
+            class="button small"
+            onClick={() => {
+              stage.followNext();
+              store.ask({ target });
+            }}
+          >
+            {label}
+          </button>
+        </p>
+      ))}
+    </div>
   );
 }
 
@@ -159,10 +205,7 @@ const STRENGTHS = ["best", "little", "some", "more", "most"];
 function Search({ settings }: { settings: Settings }) {
   const view = store.view.value!;
   const { set } = store;
-  const running = view.searching;
   const isScene = store.kind.value === "scene";
-  const isImpossible = view.model === null || (isScene && view.model.draws === null && store.target.value === null && !view.ask.sketch);
-  const verb = store.kind.value === "coloring" ? "Colour" : "Grow";
   return (
     <section>
       <h2>Search</h2>
@@ -217,18 +260,6 @@ function Search({ settings }: { settings: Settings }) {
           onEnd={(text) => set({ seed: text === "" ? null : Number(text) })}
         />
       </label>
-      {running === null ? (
-        <button class="primary" disabled={isImpossible} onClick={store.run} title={`${verb} (Enter)`}>
-          {store.heldParts.value.size > 0 ? `${verb} the rest` : verb}
-        </button>
-      ) : (
-        <button class="primary stop" onClick={store.stop} title="Stop and keep the results so far (Esc)">
-          Stop
-          <small>
-            {running.seconds.toFixed(1)} s{running.fit !== "" && ` · ${running.fit}`}
-          </small>
-        </button>
-      )}
       {view.losses !== "" && <p class="quiet losses">{view.losses.replaceAll("`", "")}</p>}
       {store.heldParts.value.size > 0 && (
         <ul class="held" aria-label="Held parts">
@@ -246,5 +277,40 @@ function Search({ settings }: { settings: Settings }) {
         </ul>
       )}
     </section>
+  );
+}
+
+/** The button that starts and stops a search, always in view, with what is still missing. */
+function Start() {
+  const view = store.view.value!;
+  const running = view.searching;
+  const verb = store.kind.value === "coloring" ? "Colour" : "Grow";
+  const missing = store.missing.value;
+  return (
+    <div class="start">
+      {missing !== "" && running === null && (
+        <p id="missing" role="status">
+          {missing}
+        </p>
+      )}
+      {running === null ? (
+        <button
+          class="primary"
+          disabled={missing !== ""}
+          aria-describedby={missing === "" ? undefined : "missing"}
+          onClick={store.run}
+          title={`${verb} (Enter)`}
+        >
+          {store.heldParts.value.size > 0 ? `${verb} the rest` : verb}
+        </button>
+      ) : (
+        <button class="primary stop" onClick={store.stop} title="Stop and keep the results so far (Esc)">
+          Stop
+          <small>
+            {running.seconds.toFixed(1)} s{running.fit !== "" && ` · ${running.fit}`}
+          </small>
+        </button>
+      )}
+    </div>
   );
 }

@@ -113,9 +113,14 @@ impl Run<'_, '_> {
         if closure.memo.is_some() {
             return Err(Divergence);
         }
+        let frame = if self.machine.program.frames { inputs.next_back() } else { None };
         let left_out = defaults(f, &closure, inputs.len())?;
         let hidden = left_out.chain(&closure.captures).cloned().map(Side::All);
-        let inputs: Vec<Side> = inputs.chain(hidden).collect();
+        let mut inputs: Vec<Side> = inputs.chain(hidden).collect();
+        if let Some(frame) = frame.filter(|_| f.mode != Mode::Pure) {
+            inputs.truncate(usize::from(f.params + f.captures) - 1);
+            inputs.push(frame);
+        }
         if f.mode == Mode::Pure {
             self.enter_pure(function, site.to, inputs)?;
             return Ok(Continuation::Entered);

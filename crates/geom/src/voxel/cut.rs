@@ -14,19 +14,19 @@
 //! A cell in between is filled if the surface of the cut meets it. If not, it lies on one side of that surface, as do all its
 //! neighbours of this kind, so one point decides for a whole region.
 
-use super::{Cut, Operation, surface};
+use super::surface::{Bits, mark_among};
+use super::{CellBox, Grid, Voxels, run};
 use crate::mesh::TriMesh;
+use crate::solids::cut::{Cut, Operation};
 use crate::vector::vec3;
-use crate::voxel::surface::{Bits, mark_among};
-use crate::voxel::{CellBox, Grid, Voxels, run};
 
 /// The place in a cell of the point that decides for a region: away from planes on which faces often lie.
 const POINT: [f64; 3] = [0.437, 0.561, 0.523];
 
 /// The cells that a cut with this surface fills, and the box around them; `None` when it fills none.
-pub(crate) fn cells(cut: &Cut, mesh: &TriMesh, grid: &Grid) -> Option<(CellBox, Bits)> {
+pub(super) fn cells(cut: &Cut, mesh: &TriMesh, grid: &Grid) -> Option<(CellBox, Bits)> {
     let cells = grid.cells_of(&mesh.aabb())?;
-    let leaves: Vec<Option<Voxels>> = cut.solids.iter().map(|shape| Voxels::of(shape, grid)).collect();
+    let leaves: Vec<Option<Voxels>> = cut.solids().iter().map(|shape| Voxels::of(shape, grid)).collect();
     let [low, high] = [cells.low, cells.high].map(|corner| corner.map(|i| i as i64));
     let (mut filled, mut open) = (Bits::empty(low, high), Bits::empty(low, high));
     let mut any_open = false;
@@ -69,19 +69,11 @@ fn combine(operation: Operation, [may_a, does_a]: [u64; 2], [may_b, does_b]: [u6
 /// Decides the open cells that the surface does not meet, region by region.
 fn settle(cut: &Cut, grid: &Grid, open: &mut Bits, filled: &mut Bits) {
     open.remove(filled);
-    let mut leaves = None;
+    let mut interior = None;
     let mut region = Vec::new();
     while let Some(first) = open.first() {
-        let leaves = leaves.get_or_insert_with(|| surface::coarse_leaves(cut));
         let [x, y, z] = std::array::from_fn(|a| first[a] as f64 + POINT[a]);
-        let point = grid.to_world(vec3(x, y, z));
-        let mut next = leaves.iter();
-        let contains = || next.next().is_some_and(|leaf| leaf.contains(point));
-        let is_inside = cut.fold(contains, |operation, a, b| match operation {
-            Operation::Union => a || b,
-            Operation::Intersection => a && b,
-            Operation::Difference => a && !b,
-        });
+        let is_inside = interior.get_or_insert_with(|| cut.interior()).contains(grid.to_world(vec3(x, y, z)));
         open.clear(first);
         region.push(first);
         while let Some(cell) = region.pop() {

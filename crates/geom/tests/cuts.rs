@@ -1,15 +1,13 @@
 //! Claims: the surface of a cut winds around the points of its tree and no others, with volumes that add up; it fills the
 //! cells that its surface and its inside meet; faces that lie on one another leave no film; the order of leaves decides nothing.
-use super::*;
-use crate::intersect::inside::winds_around;
-use crate::intersect::{Rule, intersects};
-use crate::look::Look;
-use crate::mesh::TriMesh;
-use crate::solids::{Solid, Torus};
-use crate::vector::{Mat3, Vec3, vec3};
-use crate::voxel::surface::touches;
-use crate::voxel::{Grid, Voxels};
-use Operation::{Difference, Intersection, Union};
+
+use niwaki_geom::Operation::{self, Difference, Intersection, Union};
+use niwaki_geom::intersect::inside::contains;
+use niwaki_geom::solids::Torus;
+use niwaki_geom::voxel::surface::touches;
+use niwaki_geom::{
+    Aabb, Grid, Look, Mat3, Placement, Rule, Shape, Solid, TriMesh, Vec3, Voxels, intersects, vec3,
+};
 
 fn cuboid(center: [f64; 3], size: [f64; 3]) -> Shape {
     Shape::cuboid(center.into(), size.into(), &Look::default()).unwrap()
@@ -66,10 +64,6 @@ impl Dice {
             }
         }
     }
-}
-
-fn contains(shape: &Shape, p: Vec3) -> bool {
-    winds_around(shape.world_mesh().corners(), p)
 }
 
 #[test]
@@ -139,8 +133,7 @@ fn cells_by_hand(shape: &Shape, grid: &Grid) -> Vec<[usize; 3]> {
     (0..nx * ny * nz)
         .map(|i| [i % nx, i / nx % ny, i / nx / ny])
         .filter(|cell| {
-            triangles.iter().any(|t| touches(t, cell.map(|i| i as i64)))
-                || contains(shape, middle(*cell))
+            triangles.iter().any(|t| touches(t, cell.map(|i| i as i64))) || contains(shape, middle(*cell))
         })
         .collect()
 }
@@ -148,7 +141,7 @@ fn cells_by_hand(shape: &Shape, grid: &Grid) -> Vec<[usize; 3]> {
 #[test]
 fn cells_are_those_that_the_solid_meets() {
     let mut dice = Dice(11);
-    let bounds = crate::bounds::Aabb { low: vec3(-1.2, -1.1, -1.0), high: vec3(1.0, 1.2, 1.1) };
+    let bounds = Aabb { low: vec3(-1.2, -1.1, -1.0), high: vec3(1.0, 1.2, 1.1) };
     let grid = Grid::around(&bounds, 0.21).unwrap();
     let mut filled = 0;
     let mut check = |shape: &Shape, title: &str| {
@@ -255,10 +248,14 @@ fn many_holes_move_together() {
         holes = of(Difference, &holes, &cylinder([0.1 * f64::from(k) - 1.4, 0.0, 0.0], 0.04, 1.0));
     }
     assert_eq!(holes.leaves().len(), 31);
-    let moved = Placement { rotation: Mat3::rotation(vec3(0.0, 1.0, 0.0), 0.5), translation: vec3(3.0, 0.0, 1.0) };
-    let placed = holes.placed_after(&moved).unwrap();
+    let moved =
+        Placement { rotation: Mat3::rotation(vec3(0.0, 1.0, 0.0), 0.5), translation: vec3(3.0, 0.0, 1.0) };
+    let look = Look::default();
+    let placed = Shape::new(holes.solid().clone(), moved, &look).unwrap();
     assert!((volume(&placed) - volume(&holes)).abs() < 1e-9);
-    assert!((moved.apply(holes.world_mesh().vertices()[5]) - placed.world_mesh().vertices()[5]).norm() < 1e-9);
+    assert!(
+        (moved.apply(holes.world_mesh().vertices()[5]) - placed.world_mesh().vertices()[5]).norm() < 1e-9
+    );
 }
 
 #[test]
@@ -277,7 +274,10 @@ fn the_fine_mesh_has_normals_and_the_paint_of_each_solid() {
             assert!((n.norm() - 1.0).abs() < 1e-9);
             if shape.color().is_some() {
                 // The wall of the hole looks at its axis.
-                assert!((p.x.hypot(p.y) - 0.5).abs() < 0.002 && n.dot(vec3(p.x, p.y, 0.0)) < -0.49, "{p:?} {n:?}");
+                assert!(
+                    (p.x.hypot(p.y) - 0.5).abs() < 0.002 && n.dot(vec3(p.x, p.y, 0.0)) < -0.49,
+                    "{p:?} {n:?}"
+                );
             }
         }
         fine.faces.iter().map(corners).map(|[a, b, c]| (b - a).cross(c - a).norm() / 2.0).sum::<f64>()

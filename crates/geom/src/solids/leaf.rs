@@ -1,11 +1,11 @@
 //! A leaf of a cut: its faces, how they divide a piece of another face, and whether it contains a point.
 
+use super::shape::Shape;
 use super::sides::Sides;
 use crate::bounds::Aabb;
 use crate::fine::FineMesh;
-use crate::intersect::inside::winds_around;
-use crate::solids::shape::Shape;
 use crate::vector::{Vec3, vec3};
+use crate::winding::winds_around;
 
 /// A plane: the points `p` with `normal . p = at`. Its front is where the unit normal points.
 #[derive(Clone, Copy, Debug)]
@@ -39,9 +39,8 @@ impl Face {
     fn new(points: Vec<Vec3>) -> Option<Face> {
         let origin = points[0];
         let pairs = points[1..].windows(2);
-        let normal = pairs
-            .fold(Vec3::ZERO, |sum, pair| sum + (pair[0] - origin).cross(pair[1] - origin))
-            .unit()?;
+        let normal =
+            pairs.fold(Vec3::ZERO, |sum, pair| sum + (pair[0] - origin).cross(pair[1] - origin)).unit()?;
         let aabb = Aabb::around(points.iter().copied());
         Some(Face { points, normal, aabb })
     }
@@ -73,7 +72,8 @@ impl Leaf {
     pub fn coarse(shape: &Shape, tolerance: f64) -> Leaf {
         if let Some(convex) = shape.convex() {
             let (vertices, topology) = (convex.vertices(), convex.topology());
-            let faces = topology.faces.iter().map(|face| face.iter().map(|v| vertices[*v as usize]).collect());
+            let faces =
+                topology.faces.iter().map(|face| face.iter().map(|v| vertices[*v as usize]).collect());
             let leaf = Leaf::new(faces, tolerance);
             // The faces of a nearly convex solid may be bent: then only its triangles are its surface.
             if leaf.planes.is_some() && leaf.is_flat() {
@@ -165,11 +165,15 @@ impl Leaf {
     fn divide_by_faces(&self, points: Vec<Vec3>, normal: Vec3, mut each: impl FnMut(Vec<Vec3>, Sides)) {
         let tolerance = self.tolerance;
         let limits = Aabb::around(points.iter().copied()).grown(tolerance);
-        let near: Vec<&Face> = self.faces.iter().filter(|face| face.aabb.meets(&limits)).collect();
+        let near = self.faces.iter().filter(|face| face.aabb.meets(&limits));
         let base = Plane::through(points[0], normal);
         let is_on = |face: &Face| face.points.iter().all(|p| base.height(*p).abs() <= tolerance);
+        let mut below: Vec<&Face> = Vec::new();
         let mut pieces = vec![points];
-        for face in &near {
+        for face in near {
+            if is_on(face) {
+                below.push(face);
+            }
             let knives = knives(face, &base, is_on(face), tolerance);
             for (plane, from, to) in &knives {
                 let whole = std::mem::take(&mut pieces);
@@ -189,8 +193,7 @@ impl Leaf {
         }
         for piece in pieces {
             let middle = piece.iter().fold(Vec3::ZERO, |sum, p| sum + *p) * (1.0 / piece.len() as f64);
-            let below = near.iter().find(|face| is_on(face) && covers(face, middle, tolerance));
-            let sides = match below {
+            let sides = match below.iter().find(|face| covers(face, middle, tolerance)) {
                 Some(face) if face.normal.dot(normal) > 0.0 => Sides::ON,
                 Some(_) => Sides::AGAINST,
                 None if self.contains(middle) => Sides::IN,
@@ -245,7 +248,8 @@ fn split(points: &[Vec3], plane: &Plane, tolerance: f64) -> [Option<Vec<Vec3>>; 
         }
         if here * there < 0.0 {
             // From the point behind the plane, whichever comes first: a face on the other side of the edge gets the same bits.
-            let (low, high, depth, height) = if here < 0.0 { (p, q, here, there) } else { (q, p, there, here) };
+            let (low, high, depth, height) =
+                if here < 0.0 { (p, q, here, there) } else { (q, p, there, here) };
             let crossing = *low + (*high - *low) * (depth / (depth - height));
             parts.iter_mut().for_each(|part| part.push(crossing));
         }
@@ -258,9 +262,7 @@ fn knives(face: &Face, base: &Plane, is_on: bool, tolerance: f64) -> Vec<(Plane,
     let points = &face.points;
     let edges = (0..points.len()).map(|k| (points[k], points[(k + 1) % points.len()]));
     if is_on {
-        let across = |(a, b): (Vec3, Vec3)| {
-            Some((Plane::through(a, face.normal.cross(b - a).unit()?), a, b))
-        };
+        let across = |(a, b): (Vec3, Vec3)| Some((Plane::through(a, face.normal.cross(b - a).unit()?), a, b));
         return edges.filter_map(across).collect();
     }
     let mut ends: Vec<Vec3> = Vec::with_capacity(4);

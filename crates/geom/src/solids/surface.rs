@@ -4,7 +4,7 @@
 //! another the first leaf's remains. The pieces of an edge are divided at the same points on both sides only by chance, so the
 //! pieces of the surface meet without gaps, but not corner to corner.
 
-use super::Cut;
+use super::cut::Cut;
 use super::leaf::Leaf;
 use super::sides::Sides;
 use crate::bounds::Aabb;
@@ -15,7 +15,7 @@ use crate::vector::Vec3;
 
 /// The distance, as a share of the size, below which points are at one place.
 const SAME: f64 = 1e-9;
-/// The same for coordinates far from the origin, as a share of them: 32 steps of a 64-bit number.
+/// This distance for coordinates far from the origin, as a share of them: 32 steps of a 64-bit number.
 const STEP: f64 = 8e-15;
 
 /// A piece of a leaf's face that is on the surface of the cut.
@@ -30,7 +30,7 @@ struct Facet {
 
 /// The distance below which points of a cut are at one place.
 pub(super) fn tolerance(cut: &Cut) -> f64 {
-    let aabb = cut.solids.iter().fold(Aabb::EMPTY, |all, shape| all.union(shape.aabb()));
+    let aabb = cut.solids().iter().fold(Aabb::EMPTY, |all, shape| all.union(shape.aabb()));
     let most = |v: Vec3| v.x.max(v.y).max(v.z);
     let farthest = most(aabb.high.max(aabb.low * -1.0));
     (SAME * most(aabb.extent())).max(STEP * farthest)
@@ -39,7 +39,7 @@ pub(super) fn tolerance(cut: &Cut) -> f64 {
 /// The leaves as scores see them.
 pub(super) fn coarse_leaves(cut: &Cut) -> Vec<Leaf> {
     let tolerance = tolerance(cut);
-    cut.solids.iter().map(|shape| Leaf::coarse(shape, tolerance)).collect()
+    cut.solids().iter().map(|shape| Leaf::coarse(shape, tolerance)).collect()
 }
 
 /// The surface as scores see it.
@@ -65,7 +65,7 @@ pub(crate) fn mesh(cut: &Cut) -> Result<TriMesh, GeomError> {
 /// would bulge at the rim of its hole.
 pub(crate) fn fine(cut: &Cut) -> FineMesh {
     let tolerance = tolerance(cut);
-    let meshes: Vec<FineMesh> = cut.solids.iter().map(|shape| shape.sharp_mesh()).collect();
+    let meshes: Vec<FineMesh> = cut.solids().iter().map(|shape| shape.sharp_mesh()).collect();
     let leaves: Vec<Leaf> = meshes.iter().map(|mesh| Leaf::fine(mesh, tolerance)).collect();
     let mut all = FineMesh::default();
     each_facet(cut, &leaves, |facet| {
@@ -110,7 +110,7 @@ fn each_facet(cut: &Cut, leaves: &[Leaf], mut each: impl FnMut(Facet)) {
                 .map(|other| if other.aabb.meets(&reach) { Sides::UNKNOWN } else { Sides::OUT })
                 .collect();
             sides[number] = Sides::ON;
-            let others: Vec<usize> = (0..leaves.len()).filter(|other| !sides[*other].is_known()).collect();
+            let dividers: Vec<usize> = (0..leaves.len()).filter(|other| !sides[*other].is_known()).collect();
             open.push((face.points.clone(), sides, 0));
             while let Some((points, sides, next)) = open.pop() {
                 let outcome = cut.evaluate(&sides);
@@ -118,14 +118,14 @@ fn each_facet(cut: &Cut, leaves: &[Leaf], mut each: impl FnMut(Facet)) {
                     continue;
                 }
                 // A face of an earlier leaf may lie below a piece whose sides are known.
-                let is_first = others[next..].first().is_none_or(|other| *other > number);
+                let is_first = dividers[next..].first().is_none_or(|other| *other > number);
                 if outcome.is_known() && is_first {
                     let turned = outcome.front();
                     let points = if turned { points.into_iter().rev().collect() } else { points };
                     each(Facet { points, leaf: number, face: at, turned });
                     continue;
                 }
-                let other = others[next];
+                let other = dividers[next];
                 leaves[other].divide(points, face.normal, |piece, there| {
                     if !(there.is_on() && other < number) {
                         let mut sides = sides.clone();

@@ -4,7 +4,7 @@
 //! on each side alone. So faces that lie on one another need no rules of their own: a piece is on the surface of the result
 //! if its sides differ.
 
-/// What is known of the sides of a piece. Bit 0 is the front, where the normal points, and bit 1 the back.
+/// The known sides of a piece. Bit 0 is the front, where the normal points, and bit 1 the back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Sides {
     known: u8,
@@ -64,9 +64,8 @@ mod tests {
     #[test]
     fn known_sides_hold_whatever_the_others_are() {
         let whole = [Sides::OUT, Sides::IN, Sides::ON, Sides::AGAINST];
-        let partial: Vec<Sides> = (0..4)
-            .flat_map(|known| (0..4).map(move |solid| Sides { known, solid: solid & known }))
-            .collect();
+        let partial: Vec<Sides> =
+            (0..4).flat_map(|known| (0..4).map(move |solid| Sides { known, solid: solid & known })).collect();
         let fits = |part: &Sides, all: &Sides| all.solid & part.known == part.solid;
         for a in &partial {
             for b in &partial {
