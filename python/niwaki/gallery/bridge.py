@@ -27,7 +27,9 @@ def bridge(gap=24.0):
 
 def masonry(form, middle, span, pier, rise, depth, wide, crown):
     """Return a block of stone with an opening below its crown."""
-    solid = box((middle, 0.5 * (rise - depth), 0.0), (span - 0.02, rise + depth, wide), bevel=0.0, color=STONE)
+    solid = box(
+        (middle, 0.5 * (rise - depth), 0.0), (span - 0.02, rise + depth, wide), bevel=0.0, color=STONE
+    )
     radius, top = 0.5 * (span - pier), (1.0 - crown) * rise
     spring = top - {"round": 1.0, "flat": 0.45, "pointed": 1.2247}[form] * radius
     # The opening of a flat arch is a part of a large circle, that of a pointed arch the common part of two circles.
@@ -41,7 +43,9 @@ def masonry(form, middle, span, pier, rise, depth, wide, crown):
     clear = box((middle, 0.5 * (top + bottom), 0.0), (2.0 * radius, top - bottom, wide + 2.0), color=DARK)
     if spring <= -depth:
         return solid - (left & right & clear)
-    shaft = box((middle, 0.5 * (spring + bottom), 0.0), (2.0 * radius, spring - bottom, wide + 1.0), color=DARK)
+    shaft = box(
+        (middle, 0.5 * (spring + bottom), 0.0), (2.0 * radius, spring - bottom, wide + 1.0), color=DARK
+    )
     return solid - ((left & right & clear) | shaft)
 
 

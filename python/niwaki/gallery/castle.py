@@ -39,8 +39,15 @@ def tower(foot, most, wall_height):
     radius, height = uniform(0.7, 1.0) * most, wall_height * uniform(1.1, 2.4)
     head, top = 1.15 * radius, foot + vec(0.0, height + 0.4 * radius, 0.0)
     shaft = drum(is_round, foot, radius, height, STONE)
-    slits = [box(foot + vec(0.0, 0.7 * height, 0.0), (s, 0.12 * height, l), color=TIMBER) for s, l in ((0.3, 9.0), (9.0, 0.3))]
-    emit(shaft - slits[0] - slits[1], drum(is_round, top - vec(0.0, 0.4 * radius, 0.0), head, 0.4 * radius, DARK), name="tower")
+    slits = [
+        box(foot + vec(0.0, 0.7 * height, 0.0), (s, 0.12 * height, l), color=TIMBER)
+        for s, l in ((0.3, 9.0), (9.0, 0.3))
+    ]
+    emit(
+        shaft - slits[0] - slits[1],
+        drum(is_round, top - vec(0.0, 0.4 * radius, 0.0), head, 0.4 * radius, DARK),
+        name="tower",
+    )
     end = choose({"spire": 3, "turret": 1, "battlements": 2})
     tall = uniform(0.8, 2.6) * radius
     if end == "spire" and is_round:
@@ -52,7 +59,9 @@ def tower(foot, most, wall_height):
         spire = cone(top + vec(0.0, tall + 0.8 * radius, 0.0), 0.8 * radius, 1.6 * radius, color=SLATE)
         emit(drum(is_round, top, 0.62 * radius, tall, STONE), spire, name="turret")
     else:
-        crown = drum(is_round, top, head, 0.5 * radius, STONE) - drum(is_round, top, 0.75 * head, radius, STONE)
+        crown = drum(is_round, top, head, 0.5 * radius, STONE) - drum(
+            is_round, top, 0.75 * head, radius, STONE
+        )
         for i in range(3):
             turn = rotation((0.0, 1.0, 0.0), pi * i / 3)
             size = (0.4 * head, 0.5 * radius, 3.0 * head)
@@ -70,7 +79,9 @@ def wall(start, end, radius, height, thick, has_gate):
     solid = box(foot + vec(0.0, 0.5 * low, 0.0), (length, low, thick), rotation=turn, bevel=0.0, color=STONE)
     if has_gate:
         size = (min(3.0, 0.5 * length), 0.6 * low, thick + 1.0)
-        gate = box(foot + vec(0.0, 0.2 * low, 0.0), (size[0], 0.5 * low, size[2]), rotation=turn, color=TIMBER)
+        gate = box(
+            foot + vec(0.0, 0.2 * low, 0.0), (size[0], 0.5 * low, size[2]), rotation=turn, color=TIMBER
+        )
         solid = solid - gate
     emit(solid, name="wall")
 

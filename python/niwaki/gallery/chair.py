@@ -44,14 +44,19 @@ def legs(width, depth, height, wood):
         emit([box((x * wide, 0.5 * height, z * deep), size, color=wood) for x, z in corners], name="legs")
     elif kind == "splayed":
         out = uniform(1.05, 1.3)
-        feet = [((x * wide * out, thick, z * deep * out), (0.8 * x * wide, height, 0.8 * z * deep)) for x, z in corners]
+        feet = [
+            ((x * wide * out, thick, z * deep * out), (0.8 * x * wide, height, 0.8 * z * deep))
+            for x, z in corners
+        ]
         emit([limb(foot, top, 0.7 * thick, thick, color=wood) for foot, top in feet], name="legs")
     elif kind == "pedestal":
         foot = uniform(0.35, 0.5) * min(width, depth)
         post = cylinder((0.0, 0.5 * height, 0.0), 1.5 * thick, height, color=wood)
         emit(post, cylinder((0.0, 0.02, 0.0), foot, 0.04, top_radius=0.7 * foot, color=wood), name="legs")
     else:
-        runner = [box((x * wide, thick, 0.0), (2.0 * thick, 2.0 * thick, depth), color=wood) for x in (-0.5, 0.5)]
+        runner = [
+            box((x * wide, thick, 0.0), (2.0 * thick, 2.0 * thick, depth), color=wood) for x in (-0.5, 0.5)
+        ]
         size = (2.0 * thick, height, 2.0 * thick)
         posts = [box((x * wide, 0.5 * height, z * 0.7 * deep), size, color=wood) for x, z in corners]
         emit(runner, posts, name="legs")
@@ -64,22 +69,37 @@ def back(width, depth, floor, wood):
     height, thick = uniform(0.2, 0.7), uniform(0.012, 0.03)
     z, wide = thick - 0.5 * depth, width - 2.0 * thick
     sides = [
-        box((x * wide, floor + 0.5 * height, z), (2.0 * thick, height, 2.0 * thick), color=wood) for x in (-0.5, 0.5)
+        box((x * wide, floor + 0.5 * height, z), (2.0 * thick, height, 2.0 * thick), color=wood)
+        for x in (-0.5, 0.5)
     ]
     rail = box((0.0, floor + height - thick, z), (wide, 4.0 * thick, 1.6 * thick), color=wood)
     if kind == "panel":
-        pad = box((0.0, floor + 0.55 * height, z), (wide, 0.8 * height, 2.4 * thick), bevel=thick, color=LINEN)
+        pad = box(
+            (0.0, floor + 0.55 * height, z), (wide, 0.8 * height, 2.4 * thick), bevel=thick, color=LINEN
+        )
         emit(sides, pad, name="back")
     elif kind == "spindles":
         count = choose([3, 4, 5, 6, 7])
         at = [wide * ((i + 1) / (count + 1) - 0.5) for i in range(count)]
-        emit(sides, rail, [cylinder((x, floor + 0.5 * height, z), 0.6 * thick, height, color=wood) for x in at], name="back")
+        emit(
+            sides,
+            rail,
+            [cylinder((x, floor + 0.5 * height, z), 0.6 * thick, height, color=wood) for x in at],
+            name="back",
+        )
     elif kind == "rungs":
         count = choose([2, 3, 4])
         at = [floor + height * (i + 1) / count - thick for i in range(count)]
-        emit(sides, [box((0.0, y, z), (wide, 0.35 * height / count, 1.4 * thick), color=wood) for y in at], name="back")
+        emit(
+            sides,
+            [box((0.0, y, z), (wide, 0.35 * height / count, 1.4 * thick), color=wood) for y in at],
+            name="back",
+        )
     else:
-        emit(arch((0.0, floor + 0.5 * height, z), (width, height, 2.0 * thick), 2.0 * thick, color=wood), name="back")
+        emit(
+            arch((0.0, floor + 0.5 * height, z), (width, height, 2.0 * thick), 2.0 * thick, color=wood),
+            name="back",
+        )
 
 
 @model
@@ -89,12 +109,21 @@ def arms(width, depth, floor, wood):
     kind = choose(["open", "closed"])
     for side in (-0.5, 0.5):
         x = side * (width - 2.0 * thick)
-        rest = box((x, floor + height, 0.1 * depth), (2.0 * thick, 1.4 * thick, 0.8 * depth), bevel=0.3 * thick, color=wood)
+        rest = box(
+            (x, floor + height, 0.1 * depth),
+            (2.0 * thick, 1.4 * thick, 0.8 * depth),
+            bevel=0.3 * thick,
+            color=wood,
+        )
         if kind == "open":
             post = box((x, floor + 0.5 * height, 0.4 * depth), (1.4 * thick, height, 1.4 * thick), color=wood)
             emit(rest, post, name="arm")
         else:
-            emit(rest, box((x, floor + 0.5 * height, 0.1 * depth), (1.6 * thick, height, 0.8 * depth), color=LINEN), name="arm")
+            emit(
+                rest,
+                box((x, floor + 0.5 * height, 0.1 * depth), (1.6 * thick, height, 0.8 * depth), color=LINEN),
+                name="arm",
+            )
 
 
 MODEL = chair

@@ -32,12 +32,12 @@ def tip(start, angle, thick, age):
     look(start, vec(-sin(angle), cos(angle), 0.0))
     angle = angle + gaussian(0.0, 0.35)
     end = start + STEP * vec(-sin(angle), cos(angle), 0.0)
-    leaves = [leaf(start + t * (end - start), angle, side) for t, side in ((0.35, -1.0), (0.75, 1.0))]
-    emit(limb(start, end, thick, 0.96 * thick, color=BARK), leaves, name="shoot")
-    goes_on = flip(0.8 if age < 40 else 0.0)
+    leaves = [leaf(start + t * (end - start), angle, side) for t, side in ((0.3, -1.0), (0.8, 1.0))]
+    emit(limb(start, end, thick, 0.96 * thick, joint="round", color=BARK), leaves, name="shoot")
+    goes_on = flip(0.85 if age < 40 else 0.0)
     if goes_on:
         future(tip, end, angle, 0.96 * thick, age + 1)
-        branches = flip(0.25)
+        branches = flip(0.3)
         if branches:
             side = choose([-1.0, 1.0])
             future(tip, start + 0.6 * (end - start), angle + side * uniform(0.5, 1.3), 0.8 * thick, age + 1)
@@ -45,7 +45,7 @@ def tip(start, angle, thick, age):
 
 def leaf(foot, angle, side):
     """Return a leaf beside its stem, turned towards the light."""
-    size = uniform(0.09, 0.17)
+    size = uniform(0.14, 0.3)
     turn = angle + side * uniform(0.4, 1.4)
     middle = foot + vec(-sin(turn), cos(turn), 0.0) * 0.55 * size + vec(0.0, 0.0, 0.05)
     tilt = rotation(OUT, turn) * rotation((1.0, 0.0, 0.0), gaussian(0.35, 0.2))

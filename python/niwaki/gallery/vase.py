@@ -37,7 +37,11 @@ def handle(knots, height, low, high, side, color):
     at = [i / 8.0 for i in range(9)]
     reach = 0.06 + 0.5 * height * (high - low)
     path = [
-        (side * (first + t * (last - first) - 0.01 + reach * sin(pi * t)), height * (low + t * (high - low)), 0.0)
+        (
+            side * (first + t * (last - first) - 0.01 + reach * sin(pi * t)),
+            height * (low + t * (high - low)),
+            0.0,
+        )
         for t in at
     ]
     return sweep([(0.022 * x, 0.022 * y) for x, y in RING], path, color=color)

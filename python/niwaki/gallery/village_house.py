@@ -63,7 +63,11 @@ def slope(roof, foot, size, turn, other, cover):
     x, y, z = foot
     gable = wedge((x, y + 0.5 * rise, z), size, rotation=turn, color=cover)
     high = rise * long / wide
-    return gable & wedge((x, y + 0.5 * high, z), (long, high, wide), rotation=other, color=cover) if roof == "hip" else gable
+    return (
+        gable & wedge((x, y + 0.5 * high, z), (long, high, wide), rotation=other, color=cover)
+        if roof == "hip"
+        else gable
+    )
 
 
 def with_openings(center, size, walls):
