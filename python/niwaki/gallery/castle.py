@@ -5,7 +5,7 @@ A tower is round or square, and ends in a spire, a turret or battlements.
 
 from math import atan2, cos, pi, sin
 
-from niwaki import arch, box, choose, cone, cylinder, emit, flip, future, model, norm, rotation, uniform, vec
+from niwaki import box, choose, cone, cylinder, emit, flip, future, model, norm, rotation, uniform, vec
 
 TITLE = "castles of towers and walls"
 TARGET = "fortress"
@@ -40,8 +40,8 @@ def tower(foot, most, wall_height):
     head, top = 1.15 * radius, foot + vec(0.0, height + 0.4 * radius, 0.0)
     shaft = drum(is_round, foot, radius, height, STONE)
     slits = [
-        box(foot + vec(0.0, 0.7 * height, 0.0), (s, 0.12 * height, l), color=TIMBER)
-        for s, l in ((0.3, 9.0), (9.0, 0.3))
+        box(foot + vec(0.0, 0.7 * height, 0.0), (slit, 0.12 * height, depth), color=TIMBER)
+        for slit, depth in ((0.3, 9.0), (9.0, 0.3))
     ]
     emit(
         shaft - slits[0] - slits[1],

@@ -3,7 +3,7 @@
 The wall is at z = 0. A branch begins in its parent: a round joint lets the two overlap there and nowhere else.
 """
 
-from math import cos, pi, sin
+from math import cos, sin
 
 from niwaki import ellipsoid, emit, flip, future, gaussian, limb, look, model, rotation, uniform, vec
 from niwaki.words import choose

@@ -149,17 +149,17 @@ pub(crate) const PROGRAMS: [(&str, &str); 11] = [
     ),
 ];
 
-/// The outcomes that `n` repetitions can count, with their probabilities; the others are one outcome, [`OTHERS`].
+/// The outcomes that `n` repetitions can count, with their probabilities; the others are one outcome, [`REST`].
 fn countable(outcomes: impl Iterator<Item = (String, f64)>, n: f64) -> Vec<(String, f64)> {
     let (mut shares, rare): (Vec<_>, Vec<_>) = outcomes.partition(|(_, p)| n * p >= RARE);
     if !rare.is_empty() {
-        shares.push((OTHERS.to_string(), rare.iter().map(|(_, p)| p).sum()));
+        shares.push((REST.to_string(), rare.iter().map(|(_, p)| p).sum()));
     }
     shares
 }
 
 /// The name of all outcomes that are rare.
-const OTHERS: &str = "others";
+const REST: &str = "rest";
 
 /// Mean and standard error of the evidence, relative to the truth, and of each outcome's share of it. Seeds are the
 /// [`repetitions`] of the range.
@@ -194,7 +194,7 @@ pub(crate) fn z_scores_here(
         countable(exact.outcomes.iter().map(|(v, log)| (repr(v).unwrap(), (log - z).exp())), n);
     let name_of = |value: String| match truth.iter().any(|(name, _)| *name == value) {
         true => value,
-        false => OTHERS.to_string(),
+        false => REST.to_string(),
     };
     // Estimates of Z p(outcome) / Z: the run's evidence times the outcome's share of the weight, unbiased.
     let mut sums: HashMap<&str, (f64, f64)> = HashMap::new();
@@ -281,7 +281,7 @@ pub(crate) fn counted(task: &Task, values: &[String]) -> Vec<(String, f64)> {
         countable(outcomes.map(|(value, log)| (repr(value).unwrap(), (log - exact.log_evidence).exp())), n);
     let mut counts: HashMap<&str, f64> = HashMap::new();
     for value in values {
-        let name = shares.iter().find(|(name, _)| name == value).map_or(OTHERS, |(name, _)| name);
+        let name = shares.iter().find(|(name, _)| name == value).map_or(REST, |(name, _)| name);
         *counts.entry(name).or_insert(0.0) += 1.0;
     }
     let z = |(name, p): &(String, f64)| {
@@ -289,7 +289,7 @@ pub(crate) fn counted(task: &Task, values: &[String]) -> Vec<(String, f64)> {
         // A certain outcome has no error.
         (name.clone(), (count - n * p) / (n * p * (1.0 - p)).sqrt().max(1e-9))
     };
-    let impossible = counts.contains_key(OTHERS) && shares.iter().all(|(name, _)| name != OTHERS);
+    let impossible = counts.contains_key(REST) && shares.iter().all(|(name, _)| name != REST);
     let impossible = impossible.then(|| ("an impossible outcome".to_string(), f64::INFINITY));
     shares.iter().map(z).chain(impossible).collect()
 }

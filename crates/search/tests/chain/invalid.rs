@@ -155,9 +155,9 @@ fn counted(task: &Task, values: &[String]) -> f64 {
     let z = |count: f64, p: f64| ((count - n * p) / (n * p * (1.0 - p)).sqrt().max(1e-9)).abs();
     let count = |name| values.iter().filter(|value| *value == name).count() as f64;
     let (frequent, rare): (Vec<_>, Vec<_>) = shares.iter().partition(|(_, p)| n * **p >= RARE);
-    let others = rare.iter().fold((0.0, 0.0), |(seen, p), (name, share)| (seen + count(*name), p + **share));
+    let rest = rare.iter().fold((0.0, 0.0), |(seen, p), (name, share)| (seen + count(*name), p + **share));
     let worst = frequent.iter().map(|(name, p)| z(count(*name), **p)).fold(0.0, f64::max);
-    if rare.is_empty() { worst } else { worst.max(z(others.0, others.1)) }
+    if rare.is_empty() { worst } else { worst.max(z(rest.0, rest.1)) }
 }
 
 fn after(task: &Task, kernel: &Kernel, strategy: Strategy, seeds: u64) -> Vec<String> {

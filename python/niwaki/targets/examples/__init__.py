@@ -1,6 +1,7 @@
 """Built-in targets, made by code: solids to fill or to avoid, and images to match.
 
 - `ships`, `towns`, `trees`  solids to fill
+- `designs`                furniture, houses, bridges, castles and vessels
 - `obstacles`                solids to avoid, and volumes to fill around them
 - `images`                   pictures of silhouettes and shadows
 - `lofts`                    the parts of the solids
@@ -18,6 +19,7 @@ from PIL import Image
 
 from niwaki.errors.files import ensure_folder, write_whole
 from niwaki.targets.examples import images
+from niwaki.targets.examples.designs import amphora, armchair, farmstead, fortress, viaduct, wreath
 from niwaki.targets.examples.obstacles import emblem, funnel, gem, ledges
 from niwaki.targets.examples.ships import dart, ship
 from niwaki.targets.examples.towns import crescent, downtown
@@ -27,13 +29,17 @@ from niwaki.targets.target import Target
 __all__ = [
     "IMAGES",
     "TARGETS",
+    "amphora",
+    "armchair",
     "bent_tube",
     "crescent",
     "dart",
     "downtown",
     "emblem",
     "fan",
+    "farmstead",
     "forked_tree",
+    "fortress",
     "funnel",
     "gem",
     "image",
@@ -41,23 +47,31 @@ __all__ = [
     "niwaki",
     "ship",
     "umbrella",
+    "viaduct",
+    "wreath",
     "write_all",
 ]
 
 SOLIDS = (
+    amphora,
+    armchair,
     bent_tube,
     crescent,
     dart,
-    fan,
     downtown,
     emblem,
+    fan,
+    farmstead,
     forked_tree,
+    fortress,
     funnel,
     gem,
     ledges,
     niwaki,
     ship,
     umbrella,
+    viaduct,
+    wreath,
 )
 
 TARGETS: dict[str, Callable[[], Target]] = {make.__name__: make for make in SOLIDS}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from niwaki.targets.examples.lofts import Mesh, block, curve, loft, ring, slab, solid, tube
+from niwaki.targets.examples.lofts import Mesh, block, curve, loft, ring, solid
 from niwaki.targets.target import Target
 
 
