@@ -36,6 +36,13 @@ voxel = 0.5
 particles = [5, 10]
 """
 
+SLAB = """
+from niwaki import Uniform, box
+
+def slab(width=Uniform(0.5, 9.0), height=Uniform(0.5, 9.0)):
+    return box((0, height / 2, 0), (width, height, 3))
+"""
+
 #: What is called, by name; a name begins with that of its command. The last call is the one that is meant.
 CALLS: dict[str, Sequence[Sequence[str]]] = {
     "models": [["models"]],
@@ -75,6 +82,9 @@ CALLS: dict[str, Sequence[Sequence[str]]] = {
         [*TREE, "--from", "first/run.json", "--reroll", "branch/branch", "--rounds", "2"],
     ],
     "grow json": [[*TREE, "--particles", "10", "--json"]],
+    "fit": [
+        "fit slab.py:slab --target gallery:ship --voxel 1 --evaluations 20 --workers 1 --seed 1 --json".split()
+    ],
     "batch": [
         ["batch", "run", "ships.toml", "--processes", "1"],
         "batch export ships --format csv,png,glb -n 3 --choices".split(),
@@ -121,6 +131,7 @@ def place() -> Iterator[Path]:
     with TemporaryDirectory() as name:
         folder = Path(name).resolve()
         (folder / "ships.toml").write_text(SPEC)
+        (folder / "slab.py").write_text(SLAB)
         (folder / "pages").mkdir()
         for number in range(4):
             page = np.full((100, 100), 255, dtype=np.uint8)

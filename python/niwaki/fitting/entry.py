@@ -333,7 +333,12 @@ class _Search:
 
     def _tell(self, point: Point, entry: Entry) -> None:
         self._known.setdefault(tuple(sorted(entry.numbers.items())), entry)
-        self.loop.tell(point, entry.outcome)
+        used = None
+        if self.generator.space is None and isinstance(entry.outcome, Outcome):
+            # A run that failed may have drawn only some of its parameters.
+            drawn = {row.name for row in entry.drawn} | set(aligning.PARAMETERS)
+            used = [name for name in self.loop.space.names if name in drawn]
+        self.loop.tell(point, entry.outcome, used=used)
         failed = [outcome for outcome in self.loop.outcomes[:ALL_FAILED] if isinstance(outcome, Failure)]
         if len(failed) == ALL_FAILED:
             raise _all_failed(self.generator.name, ALL_FAILED, failed[0].text)

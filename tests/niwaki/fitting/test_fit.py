@@ -77,6 +77,18 @@ def test_workers_survive_calls_that_raise_hang_and_crash():
     assert texts["time-out"] == "it took more than 2 s" and "SIGSEGV" in texts["died"]
 
 
+def test_the_limit_of_a_call_follows_from_ten_calls_and_has_a_floor():
+    limit = pool.Limit(60.0)
+    for number in range(10):
+        assert limit.seconds == 60.0
+        limit.note(pool.Reply(seconds=0.2 if number < 9 else 500.0))
+        limit.note(pool.Reply(kind="time-out", seconds=900.0))
+    assert limit.seconds == 6.0
+    for _ in range(20):
+        limit.note(pool.Reply(kind="raised", seconds=2.0))
+    assert limit.seconds == 20.0
+
+
 SCRIPT = """
 import sys, niwaki as nw, fit_hosts
 from niwaki.fitting.meshes import mesh_of

@@ -32,6 +32,12 @@ from niwaki import box, emit, model, uniform
 def tower():
     emit(box((0, 0, 0), (uniform(0.5, 1.5), 1, 1)))
 """
+SLAB = """
+from niwaki import Uniform, box
+
+def slab(width=Uniform(0.5, 1.5)):
+    return box((0, 0, 0), (width, 1, 1))
+"""
 BATCH = 'model = "garden.py:tower"\nseeds = 2\n[grow]\ntarget = "gallery:ship"\nparticles = 5\nvoxel = 1.0\n'
 
 #: For each command, and each of its groups, words with which it is done soon. `{}` is the folder that is read from.
@@ -39,6 +45,7 @@ COMMANDS = {
     "models": "models",
     "show": "show {}/garden.py:tower -n 1 --quick",
     "grow": "grow {}/garden.py:tower --target gallery:ship --particles 5 --voxel 1 --quick",
+    "fit": "fit {}/slab.py:slab --target gallery:ship --voxel 1 --evaluations 4 --workers 1 --seed 1 --quick -o fitted",
     "batch run": "batch {}/garden.toml --processes 1",
     "batch export": "batch export {}/batch --format csv,png,glb -o exported",
     "replay": "replay {}/grown/run.json --quick -o replayed",
@@ -91,6 +98,7 @@ def there(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with what the commands read."""
     place = tmp_path_factory.mktemp("there")
     (place / "garden.py").write_text(MODEL)
+    (place / "slab.py").write_text(SLAB)
     (place / "garden.toml").write_text(BATCH)
     shipped = Path(shell.__file__).parents[1] / "guides" / "shipped" / "lightning.guide"
     (place.parent / "lightning.guide").write_bytes(shipped.read_bytes())
