@@ -14,6 +14,7 @@ use crate::design;
 use crate::dice::{Dice, Purpose};
 use crate::emulator::Emulator;
 use crate::kernel::Scales;
+use crate::linear::{Cholesky, Matrix, dot};
 use crate::moves::{Habits, Moves};
 use crate::posterior::{Posterior, sample};
 use crate::space::{Point, Space};
@@ -29,6 +30,10 @@ const KEPT: usize = 20;
 /// Structures of which the best candidate is changed further, too.
 const NICHES: usize = 12;
 const GENERATIONS: [f64; 4] = [0.5, 0.25, 0.125, 0.1];
+/// Candidates from which a descent starts, the stride of its slopes, and its dampings.
+const DESCENTS: usize = 3;
+const STRIDE: f64 = 0.02;
+const DAMPINGS: [f64; 3] = [0.003, 0.03, 0.3];
 /// How much of what is unknown an optimist hopes for, standard deviations.
 const HOPE: f64 = 1.0;
 /// Evaluations of a structure after which it must look twice as good to be picked as another one.
@@ -393,6 +398,54 @@ fn pick(
     picked
 }
 
+/// Points from a step of Gauss and Newton towards features of zero through the emulator, for each damping (Levenberg 1944).
+///
+/// With many real parameters at once, changes at random seldom improve all of them.
+fn descend(space: &Space, emulator: &Emulator, point: &Point) -> Vec<Point> {
+    let reals: Vec<usize> =
+        (0..space.len()).filter(|axis| point.used[*axis] && !space.has_levels(*axis)).collect();
+    let mean = |row: &[f64]| emulator.mean(&emulator.kernel(row));
+    let here = mean(&point.row);
+    let mut slopes = Matrix::zeros(reals.len(), here.len());
+    for (k, axis) in reals.iter().enumerate() {
+        let mut row = point.row.clone();
+        let ends = [(row[*axis] - STRIDE).max(0.0), (row[*axis] + STRIDE).min(1.0)];
+        let [low, high] = ends.map(|x| {
+            row[*axis] = x;
+            mean(&row)
+        });
+        for (slope, (a, b)) in slopes.row_mut(k).iter_mut().zip(low.iter().zip(&high)) {
+            *slope = (b - a) / (ends[1] - ends[0]);
+        }
+    }
+    let mut products = Matrix::zeros(reals.len(), reals.len());
+    let mut trace = 0.0;
+    for i in 0..reals.len() {
+        for j in 0..=i {
+            products.row_mut(i)[j] = dot(slopes.row(i), slopes.row(j));
+        }
+        trace += products.row(i)[i];
+    }
+    let mut out = vec![];
+    for damping in DAMPINGS {
+        let mut damped = products.clone();
+        for i in 0..reals.len() {
+            let alone = damped.row(i)[i];
+            damped.row_mut(i)[i] += damping * (alone + 0.05 * trace / reals.len() as f64 + 1e-9);
+        }
+        let Some(factor) = Cholesky::of(damped) else { continue };
+        let mut step: Vec<f64> = (0..reals.len()).map(|k| dot(slopes.row(k), &here)).collect();
+        factor.solve_lower(&mut step);
+        factor.solve_upper(&mut step);
+        let mut row = point.row.clone();
+        for (axis, step) in reals.iter().zip(&step) {
+            row[*axis] = (row[*axis] - step).clamp(0.0, 1.0);
+        }
+        out.push(space.snap(&row));
+    }
+    out
+}
+
 /// The candidates that are changed further, of a pool that is sorted: the best, and the best of each of some other structures.
 /// Without these a structure is judged by parameters that suit another.
 fn survivors(space: &Space, pool: &[(Point, f64, Vec<f64>)]) -> Vec<usize> {
@@ -401,9 +454,7 @@ fn survivors(space: &Space, pool: &[(Point, f64, Vec<f64>)]) -> Vec<usize> {
     for (place, (point, ..)) in pool.iter().enumerate() {
         let structure = space.structure(point);
         let is_new = !structures.contains(&structure);
-        if place < KEPT {
-            out.push(place);
-        } else if is_new && structures.len() < NICHES {
+        if place < KEPT || (is_new && structures.len() < NICHES) {
             out.push(place);
         }
         if is_new {
@@ -432,6 +483,12 @@ fn candidates(moves: &Moves<'_>, emulator: &Emulator, dice: &mut Dice) -> Vec<Ca
                 let (a, b) = (parents[dice.below(parents.len())], parents[dice.below(parents.len())]);
                 pool.push(predicted(moves.shifted(&pool[*parent].0, &pool[a].0, &pool[b].0, 0.7)));
             }
+        }
+    }
+    pool.sort_by(|a, b| a.1.total_cmp(&b.1));
+    for place in 0..DESCENTS.min(pool.len()) {
+        for point in descend(moves.space, emulator, &pool[place].0) {
+            pool.push(predicted(point));
         }
     }
     let tried: Vec<_> =
