@@ -2,7 +2,7 @@
 
     python benches/pictures.py docs/pictures
 
-solids.png: each word that makes a solid; holes.png: solids cut from others;
+pairs.png: six targets, each beside what grew into it; solids.png: each word that makes a solid; holes.png: solids cut from others;
 ships.png: ten ships in one target; tree.png: three trees in one target and, below, three without a target;
 growth.gif: the best of the ships, growing; letters.png: a word in vines and one in lightning. Each stays below
 `LARGEST` bytes.
@@ -19,7 +19,8 @@ from typing import Any
 
 import niwaki as nw
 import numpy as np
-from niwaki import letters
+from niwaki import gallery, letters
+from niwaki.draw.picture import picture
 from niwaki.draw.scene import Scene
 from niwaki.draw.sheet import sheet
 from niwaki.errors.files import write_whole
@@ -59,6 +60,7 @@ def draw(folder: Path) -> list[Path]:
     ships = grow(spaceship, targets.ship(), particles=300, voxel=SHIP_VOXEL, runs=10, seed=1)
     trees = grow(niwaki_tree, targets.niwaki(), particles=1000, voxel=TREE_VOXEL, runs=10, seed=1)
     return [
+        written(folder / "pairs.png", pairs()),
         written(folder / "solids.png", solids()),
         written(folder / "holes.png", holes()),
         written(folder / "ships.png", fleet(ships)),
@@ -66,6 +68,25 @@ def draw(folder: Path) -> list[Path]:
         written(folder / "letters.png", words()),
         ships.best.animate(folder / "growth.gif", seconds=3.0, size=(320, 200), elevation=30.0, margin=0.03),
     ]
+
+
+def pairs() -> Image.Image:
+    """The first models of the gallery: for each the target, and the best result."""
+    pictures = []
+    for name in gallery.FIRST:
+        model = gallery.entry(name)
+        assert model is not None
+        target = model.target()
+        assert target is not None
+        result = grow(model.model, target, voxel=model.voxel, seed=1)
+        massing = Scene([("target", [nw.mesh(target.vertices, target.faces, color=(0.62, 0.70, 0.80))])])
+        look = {"size": (180, 150), "elevation": 24.0, "margin": 0.02}
+        pictures += [picture(massing, **look), picture(result.best.scene, **look)]
+    width, height = pictures[0].size
+    page = Image.new("RGB", (6 * width, 2 * height), "white")
+    for k, cell in enumerate(pictures):
+        page.paste(cell, (k % 6 * width, k // 6 * height))
+    return page
 
 
 def solids() -> Image.Image:

@@ -30,6 +30,9 @@ from niwaki.targets.sketches import Ask, Window
 #: Modules of this folder without a model, which `entry` does not import.
 NOT_MODELS = ("data", "furnishings")
 
+#: The entries that lists name first.
+FIRST = ("village-house", "castle", "chair", "bridge", "vase", "ivy")
+
 #: The default size of a population.
 PARTICLES = 300
 
@@ -110,10 +113,12 @@ def named_target(name: str) -> nw.Target:
 
 
 def entries() -> list[Entry]:
-    """Return all entries of the gallery, sorted by name."""
+    """Return all entries of the gallery: those of `FIRST`, then the others by name."""
     candidates = (entry(module.name) for module in iter_modules(__path__))
+    places = {name: place for place, name in enumerate(FIRST)}
     return sorted(
-        (candidate for candidate in candidates if candidate is not None), key=lambda candidate: candidate.name
+        (candidate for candidate in candidates if candidate is not None),
+        key=lambda candidate: (places.get(candidate.name, len(places)), candidate.name),
     )
 
 

@@ -28,7 +28,7 @@ def castle():
         future(wall, corners[i - 1], corners[i], radius, height, thick, i == 0)
     has_keep = flip(0.8)
     if has_keep:
-        side, z = uniform(2.0, 5.0), uniform(-0.3, 0.1) * deep
+        side, z = uniform(0.15, 0.3) * min(wide, deep), uniform(-0.2, 0.1) * deep
         tower(vec(0.0, 0.0, z), side, height)
 
 
@@ -53,7 +53,7 @@ def tower(foot, most, wall_height):
     if end == "spire" and is_round:
         emit(cone(top + vec(0.0, 0.5 * tall, 0.0), 1.1 * head, tall, color=SLATE), name="roof")
     elif end == "spire":
-        size = (2.1 * head, tall, 2.1 * head)
+        size = (1.6 * head, tall, 1.6 * head)
         emit(box(top + vec(0.0, 0.5 * tall, 0.0), size, taper=0.02, taper_axis="y", color=SLATE), name="roof")
     elif end == "turret":
         spire = cone(top + vec(0.0, tall + 0.8 * radius, 0.0), 0.8 * radius, 1.6 * radius, color=SLATE)
@@ -74,7 +74,7 @@ def wall(start, end, radius, height, thick, has_gate):
     """Build a wall between two towers; the gate is a hole in it."""
     along, low = end - start, uniform(0.6, 1.0) * height
     turn = rotation((0.0, 1.0, 0.0), -atan2(along.z, along.x))
-    length = norm(along) - 2.0 * radius
+    length = max(norm(along) - 2.2 * radius, 0.5)
     foot = 0.5 * (start + end)
     solid = box(foot + vec(0.0, 0.5 * low, 0.0), (length, low, thick), rotation=turn, bevel=0.0, color=STONE)
     if has_gate:
@@ -91,7 +91,7 @@ def drum(is_round, foot, radius, height, color):
     center = foot + vec(0.0, 0.5 * height, 0.0)
     if is_round:
         return cylinder(center, radius, height, color=color)
-    return box(center, (1.8 * radius, height, 1.8 * radius), color=color)
+    return box(center, (1.4 * radius, height, 1.4 * radius), color=color)
 
 
 MODEL = castle

@@ -3,7 +3,7 @@
 Words name the kinds: hold the legs at "sled" or the back at "spindles", and a search varies the rest.
 """
 
-from niwaki import arch, box, choose, cylinder, emit, flip, limb, model, uniform
+from niwaki import arch, box, choose, cylinder, emit, flip, future, limb, model, uniform
 from niwaki.words import linspace
 
 TITLE = "chairs of many kinds"
@@ -20,13 +20,21 @@ def chair():
     """Build a chair that faces +z, in metres."""
     width, depth = uniform(0.36, 0.75), uniform(0.36, 0.75)
     height, thick = uniform(0.3, 0.6), uniform(0.03, 0.12)
-    wood = choose([OAK, WALNUT])
     emit(block(0.0, height, 0.0, width, thick, depth, LINEN), name="seat")
-    legs(width, depth, height, wood)
-    if flip(0.85):
-        back(width, depth, height + thick, wood)
-    if flip(0.4):
-        arms(width, depth, height + thick, wood)
+    wood = choose([OAK, WALNUT])
+    future(legs, width, depth, height, wood)
+    future(upper, width, depth, height + thick, wood)
+
+
+@model
+def upper(width, depth, floor, wood):
+    """Perhaps build a back, and perhaps arms."""
+    has_back = flip(0.85)
+    if has_back:
+        future(back, width, depth, floor, wood)
+    has_arms = flip(0.4)
+    if has_arms:
+        future(arms, width, depth, floor, wood)
 
 
 @model

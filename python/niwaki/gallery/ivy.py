@@ -10,20 +10,18 @@ from niwaki.words import choose
 
 TITLE = "ivy on a wall"
 TARGET = "wreath"
-VOXEL = 0.1
+VOXEL = 0.08
 PARTICLES = 300
 
 BARK = (0.36, 0.29, 0.20)
 GREENS = [(0.20, 0.38, 0.17), (0.28, 0.48, 0.20), (0.38, 0.56, 0.24), (0.16, 0.32, 0.18)]
-STEP, THICK, OUT = 0.24, 0.035, (0.0, 0.0, 1.0)
+STEP, THICK, OUT = 0.25, 0.035, (0.0, 0.0, 1.0)
 
 
 @model
 def ivy():
     """Grow ivy from the foot of the wall."""
-    stems = choose([1, 2, 3])
-    for i in range(stems):
-        future(tip, vec(0.1 * (i - 1), 0.0, 0.1), gaussian(0.0, 0.4), THICK, 0)
+    tip(vec(0.0, 0.0, 0.1), 0.0, THICK, 0)
 
 
 @model
@@ -34,10 +32,10 @@ def tip(start, angle, thick, age):
     end = start + STEP * vec(-sin(angle), cos(angle), 0.0)
     leaves = [leaf(start + t * (end - start), angle, side) for t, side in ((0.3, -1.0), (0.8, 1.0))]
     emit(limb(start, end, thick, 0.96 * thick, joint="round", color=BARK), leaves, name="shoot")
-    goes_on = flip(0.85 if age < 40 else 0.0)
+    goes_on = flip(0.85 if age < 14 else 0.0)
     if goes_on:
         future(tip, end, angle, 0.96 * thick, age + 1)
-        branches = flip(0.3)
+        branches = flip(0.25)
         if branches:
             side = choose([-1.0, 1.0])
             future(tip, start + 0.6 * (end - start), angle + side * uniform(0.5, 1.3), 0.8 * thick, age + 1)
@@ -45,7 +43,7 @@ def tip(start, angle, thick, age):
 
 def leaf(foot, angle, side):
     """Return a leaf beside its stem, turned towards the light."""
-    size = uniform(0.14, 0.3)
+    size = uniform(0.09, 0.17)
     turn = angle + side * uniform(0.4, 1.4)
     middle = foot + vec(-sin(turn), cos(turn), 0.0) * 0.55 * size + vec(0.0, 0.0, 0.05)
     tilt = rotation(OUT, turn) * rotation((1.0, 0.0, 0.0), gaussian(0.35, 0.2))

@@ -5,7 +5,7 @@ The parts of a house share one `emit` where they meet, so that a search compares
 
 from math import pi
 
-from niwaki import box, choose, emit, flip, model, rotation, uniform, wedge
+from niwaki import box, choose, emit, flip, future, model, rotation, uniform, wedge
 
 TITLE = "village houses"
 TARGET = "farmstead"
@@ -23,12 +23,13 @@ def village_house():
     """Build a house whose front looks to +z, in metres."""
     walls, cover = choose([PLASTER, BRICK, STONE]), choose([TILE, SLATE, THATCH])
     width, depth, height = uniform(5.0, 12.0), uniform(4.0, 8.0), uniform(2.6, 6.0)
-    house((0.0, 0.0), (width, height, depth), walls, cover)
+    future(house, (0.0, 0.0), (width, height, depth), walls, cover)
     for side in (-1, 1):
         beside = choose(["nothing", "wing", "lean-to"])
         if beside == "wing":
             size = (uniform(2.5, 5.0), uniform(0.6, 1.0) * height, uniform(3.0, 9.0))
-            house((side * (0.5 * (width + size[0]) + 0.4), uniform(-0.5, 0.5) * depth), size, walls, cover)
+            place = (side * (0.5 * (width + size[0]) + 0.4), uniform(-0.5, 0.5) * depth)
+            future(house, place, size, walls, cover)
         elif beside == "lean-to":
             size = (uniform(1.5, 5.0), uniform(0.5, 0.9) * height, uniform(0.5, 1.0) * depth)
             center = (side * (0.5 * (width + size[0]) + 0.02), 0.5 * size[1], 0.0)

@@ -139,7 +139,7 @@ def test_a_dead_search_names_the_parts_and_what_was_tried() -> None:
     with pytest.raises(nw.InputError) as error:
         nw.grow(boxes, path_target(), 3, 0.5, seed=1)
     text = str(error.value)
-    assert "`boxes/emit` runs into another part of this line in 100 of 100" in text
+    assert '"boxes › box" runs into another part of this line in 100 of 100' in text
     assert "emit(box((apart * i" in text and "^^^^" in text
     assert len(error.value.values["attempts"].split(";")) == 6 and "depth-first" in text
 

@@ -16,12 +16,19 @@ from typing import Any
 import niwaki as nw
 import pytest
 from niwaki import color, draw, guides
-from niwaki.shell import compare, guide, letters, progress
+from niwaki.shell import compare, fit, guide, letters, progress
 from niwaki.shell.main import app
 from PIL import Image
 from typer.testing import CliRunner
 
 pytestmark = pytest.mark.filterwarnings("ignore::niwaki.search.warnings.SearchWarning")
+
+BLOCK = """
+import niwaki as nw
+
+def block(width=nw.Uniform(1, 4)):
+    return nw.box((0, 0, 0), (width, 1, 2))
+"""
 
 MODEL = """
 import os, signal
@@ -53,6 +60,7 @@ SHOWN = {
     "sample": "sample garden.py:tower --steps 1000000 --no-picture -o out",
     "batch": "batch garden.toml -o out --processes 1 --chunk 0",
     "color": "color bug -n 2 -o out",
+    "fit": "fit block.py:block --target gallery:ship --evaluations 40 --workers 1 --no-picture -o out",
     "letters": "letters I --particles 4 --searches 3 --format png,svg -o out",
     "check --try": "check garden.py:tower --try garden.py:tower --target gallery:ship",
     "guide train": "guide train vines --targets scribbles --searches 9,9 -o out/vines.guide",
@@ -79,6 +87,7 @@ def pressing(*_: Any, **__: Any) -> Iterator[Callable[[str], None]]:
 @pytest.fixture
 def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "garden.py").write_text(MODEL)
+    (tmp_path / "block.py").write_text(BLOCK)
     (tmp_path / "garden.toml").write_text(BATCH)
     monkeypatch.chdir(tmp_path)
     return tmp_path
@@ -109,12 +118,13 @@ def stopped(words: str) -> None:
 
 @pytest.mark.parametrize("name", SHOWN)
 def test_ctrl_c_ends_a_command(name: str, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for module in (progress, letters, guide, compare):
+    for module in (progress, letters, guide, compare, fit):
         monkeypatch.setattr(module, "status_line", pressing)
     stopped(SHOWN[name])
     kept = whole(place / "out")
     expected_file = {
         "grow": "run.json",
+        "fit": "fit.json",
         "sample": "samples.csv",
         "guide train": "vines.guide.checkpoint",
     }.get(name)

@@ -19,8 +19,8 @@ def test_arguments_have_a_position_or_a_name_and_others_are_refused() -> None:
     assert by_name == shape("cylinder", (0, 0, 0), 1.0, 2.0, color=(1, 0, 0))
     with pytest.raises(TypeError, match="`box` has no parameter side"):
         shape("box", (0, 0, 0), side=1.0)
-    with pytest.raises(TypeError, match="`box` takes 2 to 9 arguments, found 10"):
-        shape("box", *[(0, 0, 0)] * 10)
+    with pytest.raises(TypeError, match="`box` takes 2 to 10 arguments, found 11"):
+        shape("box", *[(0, 0, 0)] * 11)
     with pytest.raises(ValueError, match="argument 2 of `box` cannot be None") as missing:
         shape("box", (0, 0, 0))
     assert missing.value.code == "bad-argument"  # type: ignore[attr-defined]

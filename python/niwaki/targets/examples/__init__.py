@@ -1,7 +1,6 @@
 """Built-in targets, made by code: solids to fill or to avoid, and images to match.
 
 - `ships`, `towns`, `trees`  solids to fill
-- `designs`                furniture, houses, bridges, castles and vessels
 - `obstacles`                solids to avoid, and volumes to fill around them
 - `images`                   pictures of silhouettes and shadows
 - `lofts`                    the parts of the solids
@@ -19,10 +18,18 @@ from PIL import Image
 
 from niwaki.errors.files import ensure_folder, write_whole
 from niwaki.targets.examples import images
-from niwaki.targets.examples.designs import amphora, armchair, farmstead, fortress, viaduct, wreath
 from niwaki.targets.examples.obstacles import emblem, funnel, gem, ledges
 from niwaki.targets.examples.ships import dart, ship
-from niwaki.targets.examples.towns import crescent, downtown
+from niwaki.targets.examples.towns import (
+    amphora,
+    armchair,
+    crescent,
+    downtown,
+    farmstead,
+    fortress,
+    viaduct,
+    wreath,
+)
 from niwaki.targets.examples.trees import bent_tube, fan, forked_tree, niwaki, umbrella
 from niwaki.targets.target import Target
 
