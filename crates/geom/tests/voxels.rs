@@ -106,8 +106,8 @@ fn every_solid_fills_the_cells_that_a_plain_loop_finds() {
             }
         }
     }
-    assert_eq!(seen.len(), 6, "every kind of solid: {seen:?}");
-    assert!(seen.values().all(|cells| *cells > 1000), "{seen:?}");
+    assert_eq!(seen.len(), 10, "every kind of solid: {seen:?}");
+    assert!(seen.values().all(|cells| *cells > 500), "{seen:?}");
 }
 
 #[test]

@@ -105,7 +105,7 @@ const CASES: &[Case] = cases! {
     "floordiv" reals [7.3, 2.1]; "mod" reals [7.3, 2.1]; "mod" reals [-7.3, 2.1]; "pow" reals [1.7, 2.3];
     "neg" reals [0.4]; "pos" reals [0.4]; "abs" reals [-0.4]; "abs" reals [0.4]; "fabs" reals [-2.5];
     "divmod" reals [7.3, -2.1]; "clip" reals [0.4, -1.0, 1.0]; "clip" reals [3.4, -1.0, 1.0];
-    "clip" reals [-3.0, -1.0, 1.0]; "lerp" reals [0.4, 1.5, 0.3]; "sign" reals [-0.3]; "sign" reals [0.3];
+    "clip" reals [-3.0, -1.0, 1.0]; "lerp" reals [0.4, 1.5, 0.3]; "smoothstep" reals [0.7, 0.2, 1.5]; "sign" reals [-0.3]; "sign" reals [0.3];
     "float" reals [0.7]; "int" reals [2.7]; "int" reals [-0.7]; "round" reals [2.7]; "floor" reals [-2.3];
     "ceil" reals [2.3]; "trunc" reals [-2.3]; "bool" reals [0.7];
     "sqrt" reals [2.1]; "exp" reals [0.7]; "log" reals [0.7]; "log" reals [3.1, 2.2]; "log2" reals [3.1];

@@ -18,6 +18,7 @@ from niwaki import result as results
 from niwaki.errors import InputError
 from niwaki.errors.folders import held_folder
 from niwaki.errors.schema import fitted
+from niwaki.shares import percent
 from niwaki.shell import (
     controls,
     folders,
@@ -254,7 +255,7 @@ def _too_little(result: nw.Result) -> str:
     fit = result.best.fit
     if fit is None or fit.covered >= LITTLE:
         return ""
-    text = f"warning: the best run covers only {fit.covered:.1%} of the target"
+    text = f"warning: the best run covers only {percent(fit.covered)} of the target"
     blame = getattr(getattr(result.info, "losses", None), "blame", ())
     if not blame:
         return text

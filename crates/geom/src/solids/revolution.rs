@@ -201,8 +201,8 @@ impl Measured for Arc<Revolution> {
 word! {
     /// A solid of revolution, such as a vase.
     "revolve" RevolveWord {
-        /// Points of a line, in either direction: pairs (radius, height), the radius from the axis. Ends that are not on the axis are closed
-        /// by discs; a line that ends where it begins makes a ring.
+        /// Points of a line, in either direction: pairs (radius, height), the radius from the axis. Ends that are not on
+        /// the axis are closed by discs; a line that ends where it begins makes a ring.
         profile: Pairs,
         /// Where the point of the axis at height 0 goes.
         center: Point = (0.0, 0.0, 0.0),

@@ -247,8 +247,8 @@ impl Measured for Arc<Sweep> {
 word! {
     /// A polygon that is drawn along a path of straight lines, such as a handrail.
     "sweep" SweepWord {
-        /// Corners of the polygon in order, in either direction: pairs (sideways, up) about the path. Up is as near to the y axis as can be where
-        /// the path starts, or to the z axis if it starts steeply.
+        /// Corners of the polygon in order, in either direction: pairs (sideways, up) about the path. Up is as near to
+        /// the y axis as can be where the path starts, or to the z axis if it starts steeply.
         profile: Pairs,
         /// Points of the path, at least two.
         path: Points,
