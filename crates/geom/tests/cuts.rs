@@ -1,5 +1,6 @@
 //! Claims: the surface of a cut winds around the points of its tree and no others, with volumes that add up; it fills the
 //! cells that its surface and its inside meet; faces that lie on one another leave no film; the order of leaves decides nothing.
+#![allow(clippy::unwrap_used)] // A test fails where it panics.
 
 use niwaki_geom::Operation::{self, Difference, Intersection, Union};
 use niwaki_geom::intersect::inside::contains;

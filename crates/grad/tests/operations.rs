@@ -91,6 +91,10 @@ fn shrunk<S: Scalar>(x: &[S]) -> Vec<Value<S>> {
     args
 }
 
+fn spaced<S: Scalar>(x: &[S]) -> Vec<Value<S>> {
+    vec![Value::Real(x[0]), Value::Real(x[1]), Value::Int(4)]
+}
+
 /// Functions of real numbers, with points at which they have a slope.
 macro_rules! cases {
     ($($name:literal $build:ident [$($x:expr),*];)*) => {
@@ -105,7 +109,8 @@ const CASES: &[Case] = cases! {
     "floordiv" reals [7.3, 2.1]; "mod" reals [7.3, 2.1]; "mod" reals [-7.3, 2.1]; "pow" reals [1.7, 2.3];
     "neg" reals [0.4]; "pos" reals [0.4]; "abs" reals [-0.4]; "abs" reals [0.4]; "fabs" reals [-2.5];
     "divmod" reals [7.3, -2.1]; "clip" reals [0.4, -1.0, 1.0]; "clip" reals [3.4, -1.0, 1.0];
-    "clip" reals [-3.0, -1.0, 1.0]; "lerp" reals [0.4, 1.5, 0.3]; "smoothstep" reals [0.7, 0.2, 1.5]; "sign" reals [-0.3]; "sign" reals [0.3];
+    "clip" reals [-3.0, -1.0, 1.0]; "lerp" reals [0.4, 1.5, 0.3]; "smoothstep" reals [0.7, 0.2, 1.5];
+    "linspace" spaced [0.4, 2.0]; "sign" reals [-0.3]; "sign" reals [0.3];
     "float" reals [0.7]; "int" reals [2.7]; "int" reals [-0.7]; "round" reals [2.7]; "floor" reals [-2.3];
     "ceil" reals [2.3]; "trunc" reals [-2.3]; "bool" reals [0.7];
     "sqrt" reals [2.1]; "exp" reals [0.7]; "log" reals [0.7]; "log" reals [3.1, 2.2]; "log2" reals [3.1];
@@ -132,7 +137,7 @@ const CASES: &[Case] = cases! {
     "soft_at_most" reals [0.3, 0.5, 0.4]; "soft_at_most" reals [0.9, 0.5, 0.4];
     "smooth_max" reals [0.3, 0.5, 0.4]; "smooth_min" reals [0.3, 0.5, 0.4]; "smooth_abs" reals [-0.3, 0.2];
     "hsv" reals [0.3, 0.5, 0.7]; "lab" reals [55.0, 12.0, -20.0]; "to_hsv" vectors [0.3, 0.5, 0.7];
-    "to_lab" vectors [0.3, 0.5, 0.7]; "to_lab" vectors [0.02, 0.5, 0.01]; "color_difference" vectors [0.3, 0.5, 0.7, 0.6, 0.4, 0.2];
+    "to_lab" vectors [0.3, 0.5, 0.7]; "to_lab" vectors [0.02, 0.5, 0.01]; "rgb" vectors [0.3, 0.5, 0.7]; "color_difference" vectors [0.3, 0.5, 0.7, 0.6, 0.4, 0.2];
     "polygon_area" cornered [0.0, 0.1, 2.0, 0.0, 2.3, 1.9, -0.2, 1.7];
     "polygon_contains" around [0.0, 0.1, 2.0, 0.0, 2.3, 1.9, -0.2, 1.7, 0.8, 0.4];
     "polygon_distance" around [0.0, 0.1, 2.0, 0.0, 2.3, 1.9, -0.2, 1.7, 0.8, 0.4];
@@ -140,7 +145,8 @@ const CASES: &[Case] = cases! {
     "polygon_inset" shrunk [0.0, 0.1, 2.0, 0.0, 2.3, 1.9, -0.2, 1.7, 0.2];
 };
 
-/// Functions without real numbers: of text, of positions, or whose result is not scored; and those that make shapes.
+/// Functions without real numbers: of text, of positions, or whose result is not scored; those that make shapes; and those of
+/// frames, whose slopes the tests of drags check.
 const WITHOUT: &[&str] = &[
     "is_none",
     "in",
@@ -169,6 +175,11 @@ const WITHOUT: &[&str] = &[
     "fstr",
     "method",
     "check_look",
+    "options",
+    "frame_in",
+    "placed",
+    "reflection",
+    "worn",
 ];
 
 fn recorded(x: &[f64], f: impl FnOnce(&[Var]) -> Var) -> Density {
