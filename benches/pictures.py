@@ -60,10 +60,10 @@ def draw(folder: Path) -> list[Path]:
     ships = grow(spaceship, targets.ship(), particles=300, voxel=SHIP_VOXEL, runs=10, seed=1)
     trees = grow(niwaki_tree, targets.niwaki(), particles=1000, voxel=TREE_VOXEL, runs=10, seed=1)
     return [
-        written(folder / "pairs.png", pairs()),
+        written(folder / "pairs.png", pairs(), LARGEST // 4),
         written(folder / "solids.png", solids()),
         written(folder / "holes.png", holes()),
-        written(folder / "ships.png", fleet(ships)),
+        written(folder / "ships.png", fleet(ships), LARGEST // 4),
         written(folder / "tree.png", garden(trees)),
         written(folder / "letters.png", words()),
         ships.best.animate(folder / "growth.gif", seconds=3.0, size=(320, 200), elevation=30.0, margin=0.03),
@@ -165,11 +165,11 @@ def words() -> Image.Image:
     return _above(vines, lightning)
 
 
-def written(path: Path, image: Image.Image) -> Path:
+def written(path: Path, image: Image.Image, largest: int = LARGEST) -> Path:
     """Write a picture; with 256 colours where it would be too large with all."""
     flat = image.convert("RGB")
     data = _png(flat)
-    if len(data) > LARGEST:
+    if len(data) > largest:
         data = _png(flat.quantize(256, Image.Quantize.MEDIANCUT, kmeans=3))
     return write_whole(path, data)
 

@@ -32,10 +32,10 @@ def tip(start, angle, thick, age):
     end = start + STEP * vec(-sin(angle), cos(angle), 0.0)
     leaves = [leaf(start + t * (end - start), angle, side) for t, side in ((0.3, -1.0), (0.8, 1.0))]
     emit(limb(start, end, thick, 0.96 * thick, joint="round", color=BARK), leaves, name="shoot")
-    goes_on = flip(0.85 if age < 14 else 0.0)
+    goes_on = flip(0.9 if age < 14 else 0.0)
     if goes_on:
         future(tip, end, angle, 0.96 * thick, age + 1)
-        branches = flip(0.25)
+        branches = flip(0.4)
         if branches:
             side = choose([-1.0, 1.0])
             future(tip, start + 0.6 * (end - start), angle + side * uniform(0.5, 1.3), 0.8 * thick, age + 1)
