@@ -1,9 +1,6 @@
-"""Chairs: a seat on legs, with or without a back and arms.
+"""Chairs: a seat on legs, with or without a back and arms. Words name the kinds: hold the legs at "sled"."""
 
-Words name the kinds: hold the legs at "sled" or the back at "spindles", and a search varies the rest.
-"""
-
-from niwaki import arch, box, choose, cylinder, emit, flip, future, limb, model, uniform
+from niwaki import arch, box, choose, cylinder, emit, future, limb, model, uniform
 from niwaki.words import linspace
 
 TITLE = "chairs of many kinds"
@@ -22,31 +19,16 @@ def chair():
     height, thick = uniform(0.3, 0.6), uniform(0.03, 0.12)
     emit(block(0.0, height, 0.0, width, thick, depth, LINEN), name="seat")
     wood = choose([OAK, WALNUT])
-    future(legs, width, depth, height, wood)
-    future(upper, width, depth, height + thick, wood)
-
-
-@model
-def upper(width, depth, floor, wood):
-    """Perhaps build a back, and perhaps arms."""
-    has_back = flip(0.85)
-    if has_back:
-        future(back, width, depth, floor, wood)
-    has_arms = flip(0.4)
-    if has_arms:
-        future(arms, width, depth, floor, wood)
+    for part, floor in ((legs, height), (back, height + thick), (arms, height + thick)):
+        future(part, width, depth, floor, wood)
 
 
 @model
 def legs(width, depth, height, wood):
     """Support a seat whose lower side is at `height`."""
-    kind = choose(["straight", "splayed", "pedestal", "sled"])
-    t = uniform(0.024, 0.07)
-    wide, deep = width - t, depth - t
-    corners = [(x * wide, z * deep) for x in SIDES for z in SIDES]
-    if kind == "straight":
-        emit([block(x, 0.0, z, t, height, t, wood) for x, z in corners], name="legs")
-    elif kind == "splayed":
+    kind, t = choose(["straight", "splayed", "pedestal", "sled"]), uniform(0.024, 0.07)
+    corners = [(x * (width - t), z * (depth - t)) for x in SIDES for z in SIDES]
+    if kind == "splayed":
         out = uniform(1.05, 1.3)
         tops = [((x * out, 0.5 * t, z * out), (0.8 * x, height, 0.8 * z)) for x, z in corners]
         emit([limb(foot, top, 0.35 * t, 0.5 * t, color=wood) for foot, top in tops], name="legs")
@@ -55,14 +37,15 @@ def legs(width, depth, height, wood):
         post = cylinder((0.0, 0.5 * height, 0.0), 0.75 * t, height, color=wood)
         emit(post, cylinder((0.0, 0.02, 0.0), foot, 0.04, top_radius=0.7 * foot, color=wood), name="legs")
     else:
-        runners = [block(x * wide, 0.0, 0.0, t, t, depth, wood) for x in SIDES]
-        emit(runners, [block(x, 0.0, 0.7 * z, t, height, t, wood) for x, z in corners], name="legs")
+        posts = [block(x, 0.0, z, t, height, t, wood) for x, z in corners]
+        runners = [block(x * (width - t), 0.0, 0.0, t, t, depth, wood) for x in SIDES]
+        emit(posts, runners if kind == "sled" else [], name="legs")
 
 
 @model
 def back(width, depth, floor, wood):
     """Build a back at the rear edge of the seat, from `floor` up."""
-    kind = choose(["panel", "spindles", "rungs", "hoop"])
+    kind = choose({"none": 1, "panel": 2, "spindles": 2, "rungs": 2, "hoop": 2})
     height, t = uniform(0.2, 0.7), uniform(0.024, 0.06)
     z, wide = 0.5 * t - 0.5 * depth, width - t
     sides = [block(x * wide, floor, z, t, height, t, wood) for x in SIDES]
@@ -73,24 +56,20 @@ def back(width, depth, floor, wood):
         rail = block(0.0, floor + height - 2.0 * t, z, wide, 2.0 * t, 0.8 * t, wood)
         emit(sides, rail, [block(x, floor, z, 0.5 * t, height, 0.5 * t, wood) for x in bars], name="back")
     elif kind == "rungs":
-        count = choose([2, 3, 4])
-        at = [floor + height * (i + 0.6) / count for i in range(count)]
-        emit(sides, [block(0.0, y, z, wide, 0.35 * height / count, 0.7 * t, wood) for y in at], name="back")
-    else:
+        at = linspace(floor + 0.3 * height, floor + 0.85 * height, choose([2, 3, 4]))
+        emit(sides, [block(0.0, y, z, wide, 0.1 * height, 0.7 * t, wood) for y in at], name="back")
+    elif kind == "hoop":
         emit(arch((0.0, floor + 0.5 * height, z), (width, height, t), t, color=wood), name="back")
 
 
 @model
 def arms(width, depth, floor, wood):
     """Build two arms that end at the back."""
-    kind, height, t = choose(["open", "closed"]), uniform(0.12, 0.3), uniform(0.03, 0.1)
-    for side in SIDES:
-        x = side * (width - t)
+    kind, height, t = choose({"none": 3, "open": 1, "closed": 1}), uniform(0.12, 0.3), uniform(0.03, 0.1)
+    at, long, cover = (0.4, 0.7 * t, wood) if kind == "open" else (0.1, 0.8 * depth, LINEN)
+    for x in [] if kind == "none" else [side * (width - t) for side in SIDES]:
         rest = block(x, floor + height, 0.1 * depth, t, 0.7 * t, 0.8 * depth, wood)
-        if kind == "open":
-            emit(rest, block(x, floor, 0.4 * depth, 0.7 * t, height, 0.7 * t, wood), name="arm")
-        else:
-            emit(rest, block(x, floor, 0.1 * depth, 0.8 * t, height, 0.8 * depth, LINEN), name="arm")
+        emit(rest, block(x, floor, at * depth, 0.75 * t, height, long, cover), name="arm")
 
 
 def block(x, y, z, width, height, depth, color):

@@ -1,7 +1,4 @@
-"""Village houses: a house with a steep roof, wings beside it, dormers, a chimney, and windows that are holes.
-
-The parts of a house share one `emit` where they meet, so that a search compares houses, not joints.
-"""
+"""Village houses: a house under a steep roof, what stands beside it, chimneys, and windows that are holes."""
 
 from math import pi
 
@@ -39,36 +36,30 @@ def village_house():
 @model
 def house(place, size, walls, cover):
     """Build walls with openings, a roof over them, and perhaps a chimney."""
-    x, z = place
-    width, height, depth = size
+    (x, z), (width, height, depth) = place, size
     body = with_openings((x, 0.5 * height, z), size, walls)
-    roof = choose({"gable": 3, "hip": 2, "flat": 1})
-    rise = uniform(0.35, 0.8) * min(width, depth)
+    roof, rise = choose({"gable": 3, "hip": 2, "flat": 1}), uniform(0.35, 0.8) * min(width, depth)
     if roof == "flat":
         top = box((x, height + 0.15, z), (width + 0.3, 0.3, depth + 0.3), color=TIMBER)
-    elif width > depth:
-        top = slope(roof, (x, height, z), (depth + 0.7, rise, width + 0.5), ALONG, ACROSS, cover)
     else:
-        top = slope(roof, (x, height, z), (width + 0.7, rise, depth + 0.5), ACROSS, ALONG, cover)
+        top = slopes(roof, (x, height, z), (width, rise, depth), cover)
     has_chimney = flip(0.5)
-    if has_chimney:
-        place = (x + uniform(-0.4, 0.4) * width, height + 0.6 * rise, z)
-        emit(body, top, box(place, (0.7, 1.2 * rise + 0.6, 0.7), color=BRICK), name="house")
-    else:
-        emit(body, top, name="house")
+    spot = (x + uniform(-0.4, 0.4) * width, height + 0.6 * rise, z)
+    chimney = box(spot, (0.7, 1.2 * rise + 0.6, 0.7), color=BRICK)
+    emit(body, top, chimney if has_chimney else [], name="house")
 
 
-def slope(roof, foot, size, turn, other, cover):
+def slopes(roof, foot, size, cover):
     """Return a roof between two gables, or with slopes of equal pitch on all sides."""
-    wide, rise, long = size
     x, y, z = foot
-    gable = wedge((x, y + 0.5 * rise, z), size, rotation=turn, color=cover)
-    high = rise * long / wide
-    return (
-        gable & wedge((x, y + 0.5 * high, z), (long, high, wide), rotation=other, color=cover)
-        if roof == "hip"
-        else gable
-    )
+    width, rise, depth = size
+    turns = (ALONG, ACROSS) if width > depth else (ACROSS, ALONG)
+    short, long = min(width, depth) + 0.7, max(width, depth) + 0.5
+    gable = wedge((x, y + 0.5 * rise, z), (short, rise, long), rotation=turns[0], color=cover)
+    if roof == "gable":
+        return gable
+    high = rise * long / short
+    return gable & wedge((x, y + 0.5 * high, z), (long, high, short), rotation=turns[1], color=cover)
 
 
 def with_openings(center, size, walls):
@@ -78,12 +69,11 @@ def with_openings(center, size, walls):
     high, wide = height / storeys, width / columns
     low, left = center[1] - 0.5 * height, center[0] - 0.5 * width
     solid = box(center, size, bevel=0.0, color=walls)
-    for j in range(storeys):
-        for i in range(columns):
-            is_door = j == 0 and i == columns // 2
-            tall, middle = (0.76 * high, 0.38 * high) if is_door else (0.45 * high, 0.55 * high)
-            place = (left + (i + 0.5) * wide, low + j * high + middle, center[2])
-            solid = solid - box(place, (0.42 * wide, tall, depth + 1.0), bevel=0.0, color=TIMBER)
+    for j, i in [(j, i) for j in range(storeys) for i in range(columns)]:
+        is_door = j == 0 and i == columns // 2
+        tall, middle = (0.76 * high, 0.38 * high) if is_door else (0.45 * high, 0.55 * high)
+        place = (left + (i + 0.5) * wide, low + j * high + middle, center[2])
+        solid = solid - box(place, (0.42 * wide, tall, depth + 1.0), bevel=0.0, color=TIMBER)
     return [solid, box(center, (width - 0.5, height - 0.4, depth - 0.5), color=GLASS)]
 
 

@@ -56,8 +56,9 @@ def test_models_grow_the_same_result_again(gallery_entry: Entry) -> None:
     assert target is not None
     empty_scene = nw.grow(empty, target, particles=1, voxel=gallery_entry.voxel, seed=1).best
     # The first models have many kinds, which the default search visits and few particles do not.
-    effort: dict[str, int] = {"rounds": 3} if gallery_entry.name in FIRST else {"particles": FEW}
-    settings: dict[str, Any] = {"voxel": gallery_entry.voxel, "runs": 3, "seed": 1, **effort}
+    is_first = gallery_entry.name in FIRST
+    effort: dict[str, int] = {"rounds": 6, "runs": 2} if is_first else {"particles": FEW, "runs": 3}
+    settings: dict[str, Any] = {"voxel": gallery_entry.voxel, "seed": 1, **effort}
     first = nw.grow(gallery_entry.model, target, **settings)
     again = nw.grow(gallery_entry.model, target, threads=1, **settings)
     assert [sample.choices for sample in first] == [sample.choices for sample in again]
