@@ -69,9 +69,9 @@ class Moved(Sample):
     """A sample with one choice moved by the last bit."""
 
     @property
-    def choices(self) -> dict[str, Any]:
-        """Its choices."""
-        values = super().choices
+    def places(self) -> dict[str, Any]:
+        """Its choices, with words as their places."""
+        values = super().places
         address = next(address for address, value in values.items() if isinstance(value, float))
         return {**values, address: math.nextafter(values[address], math.inf)}
 

@@ -35,7 +35,7 @@ def tip(start, angle, thick, age):
     goes_on = flip(0.9 if age < 14 else 0.0)
     if goes_on:
         future(tip, end, angle, 0.96 * thick, age + 1)
-        branches = flip(0.4)
+        branches = flip(0.3)
         if branches:
             side = choose([-1.0, 1.0])
             future(tip, start + 0.6 * (end - start), angle + side * uniform(0.5, 1.3), 0.8 * thick, age + 1)
@@ -43,7 +43,7 @@ def tip(start, angle, thick, age):
 
 def leaf(foot, angle, side):
     """Return a leaf beside its stem, turned towards the light."""
-    size = uniform(0.09, 0.17)
+    size = uniform(0.08, 0.15)
     turn = angle + side * uniform(0.4, 1.4)
     middle = foot + vec(-sin(turn), cos(turn), 0.0) * 0.55 * size + vec(0.0, 0.0, 0.05)
     tilt = rotation(OUT, turn) * rotation((1.0, 0.0, 0.0), gaussian(0.35, 0.2))

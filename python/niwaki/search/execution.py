@@ -85,7 +85,13 @@ def execute(
         return result
     runs = _Runs(search, threads, progress, keeper, runner)
     for number in range(search.runs):
-        runs.add(number)
+        try:
+            runs.add(number)
+        except KeyboardInterrupt:
+            # Ctrl-C between two checks of the engine, or while a result is stored.
+            if not runs.samples:
+                raise
+            runs.interrupted = True
         if runs.interrupted:
             break
     return runs.result()
@@ -117,12 +123,6 @@ class _Runs:
             if error.code != "everything-impossible" and not error.values.get("invalid"):
                 raise
             self.failed.append(error)
-            return
-        except KeyboardInterrupt:
-            # Ctrl-C between two checks of the engine.
-            if not self.samples:
-                raise
-            self.interrupted = True
             return
         if not isinstance(result.info, MhInfo | DrawnInfo):
             self.info = without_evidence(result.info)

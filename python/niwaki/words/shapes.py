@@ -587,8 +587,8 @@ def revolve(
     Parameters
     ----------
     profile
-        Points of a line, in either direction: pairs (radius, height), the radius from the axis. Ends that are
-        not on the axis are closed by discs; a line that ends where it begins makes a ring.
+        Points of a line, in either direction: pairs (radius, height), the radius from the axis. Ends that are not on
+        the axis are closed by discs; a line that ends where it begins makes a ring.
     center
         Where the point of the axis at height 0 goes.
     axis
@@ -623,8 +623,8 @@ def sweep(
     Parameters
     ----------
     profile
-        Corners of the polygon in order, in either direction: pairs (sideways, up) about the path. Up is as near
-        to the y axis as can be where the path starts, or to the z axis if it starts steeply.
+        Corners of the polygon in order, in either direction: pairs (sideways, up) about the path. Up is as near to
+        the y axis as can be where the path starts, or to the z axis if it starts steeply.
     path
         Points of the path, at least two.
     scale
