@@ -2,7 +2,8 @@
 
     python benches/pictures.py docs/pictures
 
-pairs.png: six targets, each beside what grew into it; solids.png: each word that makes a solid; holes.png: solids cut from others;
+pairs.png: six targets, each beside what grew into it; solids.png: each word that makes a solid; holes.png: solids
+cut from others;
 ships.png: ten ships in one target; tree.png: three trees in one target and, below, three without a target;
 growth.gif: the best of the ships, growing; letters.png: a word in vines and one in lightning. Each stays below
 `LARGEST` bytes.
