@@ -24,6 +24,7 @@ from niwaki.search.checkpoint import Checkpoint, resumed_seed
 from niwaki.search.checks import check_seed, fresh
 from niwaki.search.engine_runs import has_start, replay_choices
 from niwaki.search.request import Search
+from niwaki.targets.asks import FREE
 from niwaki.targets.sketches import Score, match_volume, no_self_intersection
 from niwaki.targets.target import Target
 
@@ -160,7 +161,7 @@ def grow(
     voxel, sigma
         As for `match_volume`.
     rule
-        As for `no_self_intersection`.
+        As for `no_self_intersection`; "none" lets parts overlap.
     polish
         The chains that continue from the best of each run, `mh(...)`. Their best state takes its place
         (`Result.polish`).
@@ -228,11 +229,12 @@ def grow_search(
         )
     product = Score() if score is None else score
     is_drawing = product.window is not None
-    if not is_drawing and not any(ask.function == no_self_intersection.__name__ for ask in product.asks):
+    is_free = is_drawing or rule == FREE
+    if not is_free and not any(ask.function == no_self_intersection.__name__ for ask in product.asks):
         product = no_self_intersection(rule) * product
     if target is not None:
         product *= match_volume(target, voxel, sigma)
-    elif len(product.asks) == (0 if is_drawing else 1):
+    elif len(product.asks) == (0 if is_free else 1):
         raise InputError("no-target", name=model.name)
     return Search(
         model,

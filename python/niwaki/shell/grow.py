@@ -74,7 +74,7 @@ def grow(
     with clock.part("compile"):
         if source.model is None:
             # The model of the earlier result, as it was.
-            earlier = origin.Origin.of_flags(origin_flags, patterns)
+            earlier = origin.Origin.of_flags(origin_flags, patterns, values)
         if earlier is None:
             reference, arguments = resume.model_of(context, source)
         else:
@@ -84,7 +84,7 @@ def grow(
                 raise InputError("flag-alone", flag="NAME=VALUE", other="MODEL", reason=reason)
         reference.model.program()
     single_file = out.single_file(formats.SINGLE_FILES, **flags.of_folders)
-    earlier = earlier or origin.Origin.of_flags(origin_flags, patterns)
+    earlier = earlier or origin.Origin.of_flags(origin_flags, patterns, values)
     has_goals = any(_is_given(context, name) for name in OPTIONS)
     asks = controls.terms(options, reference) if earlier is None or has_goals else []
     drawn = [sketch for sketch, _ in asks]

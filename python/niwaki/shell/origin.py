@@ -122,8 +122,8 @@ class Origin:
     reroll: tuple[str, ...]
 
     @classmethod
-    def of_flags(cls, flags: Flags, hold: list[str]) -> Origin | None:
-        """Return the origin that the flags name, or None; `hold` has the patterns of `--hold`."""
+    def of_flags(cls, flags: Flags, hold: list[str], values: Mapping[str, Any]) -> Origin | None:
+        """Return the origin that the flags name, or None; `hold` has the patterns of `--hold`, `values` its values."""
         path, number, reroll = flags.origin, flags.number, flags.reroll
         for flag, is_set in (("--hold", hold), ("--reroll", reroll), ("--run", number is not None)):
             if is_set and path is None:
@@ -131,7 +131,7 @@ class Origin:
                 raise InputError("hold-without-run", flag=flag, other="`--from`", cure=cure)
         if path is None:
             return None
-        if not hold and not reroll:
+        if not hold and not reroll and not values:
             reason = "a result alone does not tell which parts to keep"
             raise InputError("flag-alone", flag="--from", other="`--hold` or `--reroll`", reason=reason)
         data = shell.run_files.load(path)

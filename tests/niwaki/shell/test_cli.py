@@ -206,3 +206,27 @@ def test_ctrl_c_writes_the_best_so_far(tmp_path: Path) -> None:
     before = (out / "best.glb").read_bytes()
     assert run("replay", str(out / "run.json"), "-o", str(out), "--no-picture").exit_code == 0
     assert (out / "best.glb").read_bytes() == before
+
+
+OVERLAPPING = """
+from niwaki import box, emit, model, uniform
+
+@model
+def over():
+    height = uniform(1, 2)
+    emit(box((0, 0, 0), (1, height, 1)))
+    emit(box((0.3, 0, 0), (1, height, 1)))
+"""
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_parts_may_overlap_and_a_value_alone_is_held(tmp_path: Path) -> None:
+    file, first, second = (tmp_path / name for name in ("over.py", "first", "second"))
+    file.write_text(OVERLAPPING)
+    words = ("grow", str(file), "--target", "gallery:armchair", "--seed", "1", "--no-picture")
+    assert "impossible" in str(run(*words, "-o", str(tmp_path / "none")).exception)
+    assert run(*words, "--rule", "none", "-o", str(first)).exit_code == 0
+    again = ("grow", str(file), "--from", str(first / "run.json"), "--hold", "height=1.5", "--no-picture")
+    assert run(*again, "-o", str(second)).exit_code == 0
+    best = json.loads((second / "run.json").read_text())["runs"][0]
+    assert "1.5" in json.dumps(best["choices"])
