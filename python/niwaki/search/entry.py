@@ -24,8 +24,7 @@ from niwaki.search.checkpoint import Checkpoint, resumed_seed
 from niwaki.search.checks import check_seed, fresh
 from niwaki.search.engine_runs import has_start, replay_choices
 from niwaki.search.request import Search
-from niwaki.targets.asks import FREE
-from niwaki.targets.sketches import Score, match_volume, no_self_intersection
+from niwaki.targets.sketches import FREE, Score, match_volume, no_self_intersection
 from niwaki.targets.target import Target
 
 #: The settings of `improve`, the default search of `grow`.

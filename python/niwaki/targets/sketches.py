@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     Place = str | PathLike[str]
     CameraLike = Camera | Place | Mapping[str, Any]
 
+#: The rule under which parts may overlap: no sketch forbids it.
+FREE = "none"
 RULES = ("solid", "surface")
 
 #: The name of a sketch, and its arguments.

@@ -20,7 +20,7 @@ from typing import Any
 from niwaki.errors import InputError
 from niwaki.targets import drawings
 from niwaki.targets.drawing import Drawing
-from niwaki.targets.sketches import SKETCHES, Ask, Score, Window
+from niwaki.targets.sketches import FREE, SKETCHES, Ask, Score, Window
 
 #: Sketches of a drawing in the plane, where parts of a scene may cross.
 DRAWN = tuple(name for name, make in SKETCHES.items() if "window" in inspect.signature(make).parameters)
@@ -146,9 +146,6 @@ OPTIONS: dict[str, Option] = {
         default="solid",
     ),
 }
-
-#: The rule under which parts may overlap: then no sketch forbids it.
-FREE = "none"
 
 #: Options that may name a file.
 FILES = tuple(
