@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from typing import Any
 
 import niwaki as nw
+from niwaki.targets.pieces import joined
 from niwaki.words.distributions import Bernoulli, DiscreteUniform, Uniform
 
 from .parameters import Parameter, Values, canonical
 from .problems import IMPOSSIBLE, Problem
-from .solids import merged
 
 
 def search(problem: Problem, seed: int) -> None:
@@ -29,7 +29,7 @@ def tell(problem: Problem, loop: nw.FitLoop, point: nw.fitting.Point) -> None:
     _, values = canonical(problem.parameters, values)
     with problem.inside():
         try:
-            outcome = loop.goal.measure(nw.fitting.goals.scene_of(merged(problem.generator.parts(values))))
+            outcome = loop.goal.measure(nw.fitting.goals.scene_of(joined(problem.generator.parts(values))))
         except ValueError as error:
             outcome = nw.Failure(str(error))
     score = outcome.score if isinstance(outcome, nw.fitting.Outcome) else IMPOSSIBLE

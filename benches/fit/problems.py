@@ -12,10 +12,11 @@ from typing import Any
 import niwaki as nw
 import numpy as np
 from niwaki import _engine
+from niwaki.targets.pieces import joined
 
 from . import candle, fresh, furniture, houses, machines
 from .parameters import Parameter, Values, canonical, drawn
-from .solids import Part, intersection_over_union, merged, union
+from .solids import Part, intersection_over_union, union
 
 #: Numbers of evaluations after which the best so far is judged.
 MARKS = (100, 300, 1000)
@@ -108,7 +109,7 @@ class Problem:
     def score(self, parts: list[Part]) -> float:
         """The log score of a scene of one mesh."""
         sketch = _engine.Sketch(self.goal.specs)
-        vertices, faces = merged(parts)
+        vertices, faces = joined(parts)
         if len(faces):
             sketch.add([_engine.shape("mesh", vertices, faces)])
         return max(sketch.log_score(), IMPOSSIBLE)
@@ -204,4 +205,4 @@ def _image(target: nw.Target, parts: list[Part], along: Any) -> nw.Score:
     blank = np.zeros((96, 96), bool)
     blank[40:50, 40:50] = True
     view = nw.match_image(blank, camera).views[0].picture
-    return nw.match_image(view.mask([_engine.shape("mesh", *merged(parts))]), camera)
+    return nw.match_image(view.mask([_engine.shape("mesh", *joined(parts))]), camera)

@@ -105,16 +105,6 @@ def of_manifold(solid: manifold3d.Manifold) -> list[Part]:
     return [(vertices, faces)] if len(faces) else []
 
 
-def merged(parts: Sequence[Part]) -> Part:
-    """All parts as one mesh; an empty one without parts."""
-    vertices, faces, count = [np.zeros((0, 3))], [np.zeros((0, 3), np.int64)], 0
-    for points, triangles in parts:
-        vertices.append(points)
-        faces.append(triangles + count)
-        count += len(points)
-    return np.concatenate(vertices), np.concatenate(faces)
-
-
 def union(parts: Sequence[Part]) -> manifold3d.Manifold:
     """The exact union of closed parts."""
     solids = []

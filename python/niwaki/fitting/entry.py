@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -304,7 +304,7 @@ class _Search:
         entry = self._known.get(tuple(sorted(numbers.items())))
         if entry is None:
             return None
-        again = Entry(**{**entry.__dict__, "number": number})
+        again = replace(entry, number=number)
         self.archive.add(again)
         return again
 

@@ -28,6 +28,7 @@ from niwaki import _engine
 from niwaki.draw.assembly import Assembly
 from niwaki.fitting.commands import read
 from niwaki.targets import reading
+from niwaki.targets.pieces import joined
 
 Arrays = tuple[NDArray[np.float64], NDArray[np.int64]]
 
@@ -56,16 +57,6 @@ def mesh_of(value: Any) -> Arrays:
         It is no mesh, a coordinate is not finite, or a face has a corner that does not exist.
     """
     return joined(list(_meshes(value, 0)))
-
-
-def joined(meshes: Sequence[Arrays]) -> Arrays:
-    """Return several meshes as one."""
-    vertices, faces, count = [np.zeros((0, 3))], [np.zeros((0, 3), np.int64)], 0
-    for points, triangles in meshes:
-        vertices.append(points)
-        faces.append(triangles + count)
-        count += len(points)
-    return np.concatenate(vertices), np.concatenate(faces)
 
 
 def defects(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> list[str]:

@@ -75,9 +75,8 @@ def search_of(
         reference.model,
         **{**reference.start(asks), **arguments},
         score=score,
-        rule="solid"
-        if any(sketch == "no_self_intersection" for sketch, _ in asks)
-        else targets.sketches.FREE,
+        # The rule of intersections is among the asks.
+        rule=targets.sketches.FREE,
         method=settings.guided(
             settings.method(name, dict(method_settings), defaults), guide, method_settings
         ),

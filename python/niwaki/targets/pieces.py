@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,14 +14,19 @@ class Unreadable(Exception):
     """A file that is no readable mesh. The text is the reason."""
 
 
-def joined(parts: list[Arrays]) -> Arrays:
-    """Join all parts into one mesh. Refuse a face that names a vertex outside of its part."""
+def joined(parts: Sequence[Arrays]) -> Arrays:
+    """Join all parts into one mesh, empty without parts. Refuse a face that names a vertex outside of its part."""
     starts = np.cumsum([0, *(len(vertices) for vertices, _ in parts)])
     for vertices, faces in parts:
         check_corners(faces, len(vertices))
     return (
-        np.concatenate([vertices for vertices, _ in parts]),
-        np.concatenate([faces + start for (_, faces), start in zip(parts, starts, strict=False)]),
+        np.concatenate([np.zeros((0, 3)), *(vertices for vertices, _ in parts)]),
+        np.concatenate(
+            [
+                np.zeros((0, 3), np.int64),
+                *(faces + start for (_, faces), start in zip(parts, starts, strict=False)),
+            ]
+        ),
     )
 
 
