@@ -77,7 +77,7 @@ PYTHONS :=
 MINUTES := 10
 JOBS := 1
 
-.PHONY: all demo guides test test-binaries lint-rust lint-python studio-page test-studio studio-pictures blender test-blender blender-pictures lint counts recorded bench bench-c3 bench-hmc bench-vi bench-wait bench-sketches bench-drag bench-searches bench-fit bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean imports words
+.PHONY: all demo guides test test-binaries lint-rust lint-python studio-page test-studio studio-pictures blender test-blender blender-pictures lint counts recorded bench bench-c3 bench-hmc bench-vi bench-wait bench-sketches bench-drag bench-searches bench-fit bench-batch check-files figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean imports words
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -140,6 +140,7 @@ $(STAMPS)/blender-%: integrations/blender/requirements-%.txt $(STAMPS)/venv
 test-blender:
 	@if command -v python$(BLENDER_PYTHON) >/dev/null && $(MAKE) --no-print-directory $(STAMPS)/blender-$(BLENDER_PYTHON); then \
 	  $(MAKE) --no-print-directory blender && rm -rf out/blender/home && mkdir -p out/blender/home && \
+	  $(MAKE) --no-print-directory check-files && NIWAKI_SOLIDS=$(CURDIR)/out/solids \
 	  BLENDER_USER_RESOURCES=$(CURDIR)/out/blender/home NIWAKI_ZIP=$$(ls -t out/blender/*.zip | head -n 1) \
 	    $(IN_BLENDER)/bin/python -m pytest -q -c /dev/null --rootdir tests/integrations/blender -p no:cacheprovider \
 	    --confcutdir tests/integrations/blender --import-mode importlib tests/integrations/blender/inside_blender.py \
@@ -221,6 +222,10 @@ bench-fit: $(STAMPS)/engine $(STAMPS)/bench-fit
 
 bench-batch: $(STAMPS)/engine
 	$(PY) benches/batch.py
+
+# Admesh and the validator of Khronos take part where they are installed: see the file.
+check-files: $(STAMPS)/engine $(STAMPS)/test
+	$(PY) benches/solid_files.py out/solids
 
 soak: $(STAMPS)/engine $(STAMPS)/test
 	NIWAKI_REPETITIONS=4 cargo test $(CARGO_FLAGS) --workspace -- --include-ignored

@@ -12,14 +12,12 @@ growth.gif: the best of the ships, growing; letters.png: a word in vines and one
 from __future__ import annotations
 
 import io
-import itertools
-import math
 import sys
 from pathlib import Path
 from typing import Any
 
 import niwaki as nw
-import numpy as np
+import solid_files
 from niwaki import gallery, letters
 from niwaki.draw.picture import picture
 from niwaki.draw.scene import Scene
@@ -36,12 +34,6 @@ from niwaki.targets import examples as targets
 from PIL import Image
 
 LARGEST = 300_000
-
-#: A line from the foot of a vase over its rim into it: radii and heights.
-OUTSIDE = [(0.0, 0.0), (0.4, 0.0), (0.7, 0.5), (0.6, 1.1), (0.35, 1.4), (0.35, 1.5), (0.5, 1.8)]
-INSIDE = [(0.42, 1.8), (0.27, 1.5), (0.27, 1.4), (0.52, 1.1), (0.62, 0.6), (0.0, 0.2)]
-#: A flat bar.
-BAR = [(-0.2, -0.07), (0.2, -0.07), (0.2, 0.07), (-0.2, 0.07)]
 
 
 def draw(folder: Path) -> list[Path]:
@@ -92,55 +84,14 @@ def pairs() -> Image.Image:
 
 def solids() -> Image.Image:
     """One of each word that makes a solid."""
-    origin = (0.0, 0.0, 0.0)
-    low, middle, high = ((0.0, y, 0.0) for y in (-1.0, 0.2, 1.0))
-    forward, up = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
-    turned = nw.rotation((1.0, 0.0, 0.0), -math.pi / 2)
-    coil = [
-        (0.8 * math.cos(t), 0.25 * t - 0.8, 0.8 * math.sin(t)) for t in np.linspace(0.0, 7.0, 36).tolist()
-    ]
-    square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [0, 0, 1.4]])
-    examples = [
-        nw.box(origin, (1.6, 1.2, 1.0)),
-        nw.box(origin, (1.6, 1.2, 1.6), taper=0.4, taper_axis="y"),
-        nw.wedge(origin, (2.0, 1.0, 1.4)),
-        nw.cylinder(origin, 0.7, 1.4),
-        nw.cylinder(origin, 0.8, 1.4, top_radius=0.4),
-        nw.cone(origin, 0.8, 1.5),
-        nw.sphere(origin, 0.8),
-        nw.ellipsoid(origin, (2.0, 1.0, 1.2)),
-        nw.torus(origin, 0.8, 0.25),
-        nw.arch(origin, (1.8, 1.7, 0.6), 0.35),
-        nw.extrude(star(), 0.7, (0.0, -0.3, 0.0)),
-        nw.extrude(star(), 1.8, (0.0, -0.9, 0.0), twist=0.9, taper=0.5),
-        nw.revolve(OUTSIDE + INSIDE, (0.0, -0.9, 0.0)),
-        nw.sweep(BAR, coil, scale=0.3),
-        nw.hull([*itertools.product((-0.7, 0.7), (-0.7,), (-0.5, 0.5)), (-0.2, 0.7, 0.0), (0.7, 0.3, 0.5)]),
-        nw.limb(low, high, 0.5, 0.3, end_normal=(0.5, 1.0, 0.0)),
-        nw.segment(*((at, forward, up, radius) for at, radius in ((low, 0.5), (middle, 0.4), (high, 0.3)))),
-        nw.mesh(square, [[0, 3, 2], [0, 2, 1], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]], rotation=turned),
-    ]
-    scenes = [Scene([(shape.kind, [shape])]) for shape in examples]
+    scenes = [Scene([(name, [shape])]) for name, shape in solid_files.words().items()]
     return sheet(scenes, columns=5, size=(200, 160), elevation=24.0)
 
 
 def holes() -> Image.Image:
     """A wall with arched windows; a sphere and a box, cut in three ways."""
-    stone, blue = (0.82, 0.78, 0.7), (0.3, 0.42, 0.6)
-    wall = nw.box((0.0, 1.0, 0.0), (4.0, 2.0, 0.4), color=stone)
-    for x in (-1.2, 0.0, 1.2):
-        opening = nw.box((x, 0.8, 0.0), (0.6, 0.8, 1.0)), nw.cylinder((x, 1.2, 0.0), 0.3, 1.0, axis="z")
-        wall = wall - (opening[0] | opening[1])
-    ball = nw.sphere((0.0, 0.0, 0.0), 1.0, color=stone)
-    block = nw.box((0.5, 0.4, 0.6), (1.2, 1.2, 1.2), color=blue)
-    scenes = [Scene([("part", [shape])]) for shape in (wall, ball - block, ball & block, ball | block)]
+    scenes = [Scene([(name, [shape])]) for name, shape in solid_files.cuts().items()]
     return sheet(scenes, columns=4, size=(180, 120), elevation=20.0)
-
-
-def star() -> list[tuple[float, float]]:
-    """The outline of a star of five points."""
-    radii = [0.9, 0.4] * 5
-    return [(r * math.sin(k * math.pi / 5), r * math.cos(k * math.pi / 5)) for k, r in enumerate(radii)]
 
 
 def fleet(ships: Result) -> Image.Image:

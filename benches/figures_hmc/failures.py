@@ -27,16 +27,18 @@ def failures(path: Path, folder: Path) -> None:
     ]
     if not rows:
         return
-    down = -(-len(rows) // COLUMNS)
-    figure, axes = plt.subplots(down, COLUMNS, figsize=(3.5 * COLUMNS, 4.0 * down), squeeze=False)
+    columns = min(COLUMNS, len(rows))
+    down = -(-len(rows) // columns)
+    figure, axes = plt.subplots(down, columns, figsize=(3.5 * columns, 4.0 * down), squeeze=False)
     for cell in axes.flat:
         cell.axis("off")
     for cell, (name, row) in zip(axes.flat, rows, strict=False):
         scene = scene_of(KINDS[name], chains(folder, name, "nuts"), (row["chain"], row["draw"]))
         cell.imshow(framed(scene, None))
-        cell.set_title(f"{name}: {why(row)}", fontsize=9)
+        cell.set_title(f"{name.replace("_", " ")}: {why(row)}", fontsize=9)
     figure.tight_layout()
-    figure.savefig(path, dpi=75)
+    # The layout leaves no room for titles of cells without axes.
+    figure.savefig(path, dpi=75, bbox_inches="tight")
     plt.close(figure)
 
 

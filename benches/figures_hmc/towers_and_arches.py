@@ -97,7 +97,7 @@ def overview(path: Path, folder: Path) -> None:
         cell.imshow(framed(scene, scene))
         cell.set_title(NAMES[name], fontsize=11)
     figure.tight_layout()
-    figure.savefig(path, dpi=75)
+    figure.savefig(path, dpi=75, bbox_inches="tight")
     plt.close(figure)
 
 
@@ -125,7 +125,7 @@ def compared(path: Path, folder: Path, names: tuple[str, ...]) -> None:
             cell.axis("off")
         curves(row[5], kind, folder)
     figure.tight_layout()
-    figure.savefig(path, dpi=60)
+    figure.savefig(path, dpi=60, bbox_inches="tight")
     plt.close(figure)
 
 
@@ -171,9 +171,9 @@ def gallery(path: Path, folder: Path, names: tuple[str, ...], **view: float) -> 
             cell.axis("off")
         for cell, scene in zip(row, scenes, strict=False):
             cell.imshow(framed(scene, largest, **view))
-        row[0].set_title(NAMES[name], fontsize=11)
+        row[1].set_title(NAMES[name], fontsize=11)
     figure.tight_layout()
-    figure.savefig(path, dpi=75)
+    figure.savefig(path, dpi=75, bbox_inches="tight")
     plt.close(figure)
 
 
@@ -193,5 +193,5 @@ def tilted(path: Path, folder: Path) -> None:
         cell.set_title(f"ground tilted by {degrees:+.0f}°" if degrees else "level", fontsize=11)
         cell.axis("off")
     figure.tight_layout()
-    figure.savefig(path, dpi=75)
+    figure.savefig(path, dpi=75, bbox_inches="tight")
     plt.close(figure)

@@ -1,4 +1,5 @@
-"""Claim: Blender reads the files of the corpus of meshes (tests/niwaki/targets/mesh_corpus.py) as Niwaki does.
+"""Claim: Blender reads the files of the corpus of meshes (tests/niwaki/targets/mesh_corpus.py) as Niwaki does, and each
+solid that Niwaki writes (benches/solid_files.py) is closed in Blender and has its volume.
 
 `make test-blender` runs this file on the Python that has `bpy`. Files that Niwaki refuses are not compared, because
 Blender's importers skip unreadable contents.
@@ -6,10 +7,13 @@ Blender's importers skip unreadable contents.
 
 from __future__ import annotations
 
+import json
+import os
 import sys
 from pathlib import Path
 from typing import Any
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -82,3 +86,20 @@ def test_blender_gives_the_same_answer(case: Case, tmp_path: Path) -> None:
         # Blender has z up.
         corners = np.stack([corners[..., 0], corners[..., 2], -corners[..., 1]], axis=-1)
     assert case.agrees(corners)
+
+
+def test_each_solid_is_closed_and_has_its_volume() -> None:
+    folder = Path(os.environ["NIWAKI_SOLIDS"])
+    volumes = json.loads((folder / "volumes.json").read_text())
+    assert len(volumes) > 20
+    for name, volume in volumes.items():
+        bpy.ops.wm.read_homefile(use_empty=True)
+        read(folder / f"{name}.glb")
+        points, numbers = np.unique(triangles().reshape(-1, 3), axis=0, return_inverse=True)
+        mesh = bpy.data.meshes.new(name)
+        mesh.from_pydata(points.tolist(), [], numbers.reshape(-1, 3).tolist())
+        solid = bmesh.new()
+        solid.from_mesh(mesh)
+        assert all(edge.is_manifold and edge.is_contiguous for edge in solid.edges), name
+        assert abs(solid.calc_volume(signed=True) / volume - 1) < 1e-4, name
+        solid.free()

@@ -2,6 +2,7 @@
 //!
 //! The normal at a corner of a face is the mean of the normals of the faces around that vertex, weighted by their angle at
 //! the vertex (Thurmer & Wuthrich 1998). Faces that turn away by more than the crease angle do not count.
+//! A triangle whose three corners lie on a line stays, because its neighbours need it to be closed: nobody sees its normals.
 
 use super::mesh::{FineMesh, unit_or};
 use crate::mesh::TriMesh;
@@ -30,16 +31,18 @@ pub fn creased(mesh: &TriMesh, sharp: f64) -> FineMesh {
     let mut fine = FineMesh::default();
     let mut vertices: HashMap<([u64; 3], [u64; 3]), u32> = HashMap::new();
     for (face, points) in corners.iter().enumerate() {
-        if across[face] == Vec3::ZERO {
-            continue; // a triangle without area has no normal
+        let is_flat = across[face] == Vec3::ZERO;
+        // Its other two sides are one.
+        if is_flat && (0..3).any(|k| key(points[k]) == key(points[(k + 1) % 3])) {
+            continue;
         }
         let numbers = points.map(|p| {
             let place = key(p);
             let sum = around[&place]
                 .iter()
-                .filter(|(other, _)| across[*other].dot(across[face]) >= sharp)
+                .filter(|(other, _)| is_flat || across[*other].dot(across[face]) >= sharp)
                 .fold(Vec3::ZERO, |sum, (other, weight)| sum + across[*other] * *weight);
-            let normal = unit_or(sum, across[face]);
+            let normal = unit_or(sum, if is_flat { vec3(0.0, 1.0, 0.0) } else { across[face] });
             *vertices.entry((place, key(normal))).or_insert_with(|| fine.point(p, normal))
         });
         fine.faces.push(numbers);
@@ -55,7 +58,7 @@ fn angle(points: &[Vec3; 3], k: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    //! Claim: a cube keeps its 24 corners' normals; a strip that bends by 10 degrees shares them.
+    //! Claim: a cube keeps its 24 corners' normals; a strip that bends by 10 degrees shares them; a closed mesh stays closed.
     use super::*;
 
     #[test]
@@ -76,5 +79,17 @@ mod tests {
         ];
         let faces = vec![[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]];
         assert_eq!(creased(&TriMesh::new(strip, faces).unwrap(), SHARP).vertices.len(), 6);
+    }
+
+    #[test]
+    fn a_triangle_on_a_line_keeps_its_mesh_closed() {
+        // A tetrahedron; the middle of the side from 0 to 1 belongs to the faces on one side of it only.
+        let points = [[0., 0., 0.], [2., 0., 0.], [0., 2., 0.], [0., 0., 2.], [1., 0., 0.]];
+        let faces = vec![[0, 2, 1], [1, 2, 3], [2, 0, 3], [0, 4, 3], [4, 1, 3], [0, 1, 4]];
+        let mesh = TriMesh::new(points.map(|[x, y, z]| vec3(x, y, z)).to_vec(), faces).unwrap();
+        assert_eq!(mesh.open_edges(), 0);
+        let fine = creased(&mesh, SHARP);
+        assert!(fine.normals.iter().all(|n| (n.norm() - 1.0).abs() < 1e-12));
+        assert_eq!(TriMesh::new(fine.vertices, fine.faces).unwrap().open_edges(), 0);
     }
 }
