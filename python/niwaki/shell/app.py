@@ -25,6 +25,7 @@ COMMANDS = {
     "letters": "Write a text in vines or lightning.",
     "guide": "Train a guide for a model, or show what a guide sees.",
     "studio": "Open a page in the browser: search, hold parts, grow the rest again.",
+    "mcp": "Serve the studio's messages as tools (MCP) to a program that writes models.",
     "explain": "Draw which calls of a model each strategy runs again for one proposal.",
     "doctor": "Report versions, the machine and optional packages, and test the core.",
 }

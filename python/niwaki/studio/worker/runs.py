@@ -24,12 +24,13 @@ from niwaki.studio.messages import (
     Key,
     Outcome,
     PartInfo,
+    Picture,
     Place,
     ShowRun,
     WriteFile,
 )
 from niwaki.studio.problems import CommandError
-from niwaki.studio.worker import asks, models, permissions, shapes
+from niwaki.studio.worker import asks, models, permissions, pictures, shapes
 from niwaki.studio.worker.places import PlaceRecorder, record, slider
 
 #: Results that are kept in memory.
@@ -143,6 +144,10 @@ def _place(span: Any) -> Place | None:
 def show(job: ShowRun, send: Any) -> Answer:
     """Send the shape of a result."""
     result = sample(job.source, job.number)
+    if job.detail == "picture":
+        style = run_files.style(run_files.load(job.source), result)
+        send(Picture(job.id, key=job.key), pictures.result(result, style))
+        return Answer()
     header, payload = shapes.shape(
         result.scene, job.detail, role="result", key=job.key, id=job.id, is_flat=is_flat(result)
     )
