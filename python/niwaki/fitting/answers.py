@@ -5,8 +5,6 @@ All of them come from the evaluations that were made. None calls the model.
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from os import PathLike
@@ -18,13 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from niwaki import fitting
+from niwaki.batches import tables
 from niwaki.errors import InputError
-from niwaki.errors.extras import optional
-from niwaki.errors.files import write_whole
 from niwaki.errors.settings import bad, count, real
-from niwaki.fitting.features import VolumeDifferences
 from niwaki.fitting.goals import Outcome
 from niwaki.once import cached_property
+from niwaki.targets.differences import VolumeDifferences
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -430,28 +427,6 @@ def _ends(places: NDArray[np.float64], share: float) -> tuple[float, float]:
 
 
 def write_rows(place: Path, rows: list[dict[str, Any]]) -> None:
-    """Write rows that have the same names, as .csv or .parquet."""
+    """Write the rows of a table, which have the same names, as .csv or .parquet."""
     names = list(rows[0]) if rows else ["number"]
-    if place.suffix == ".parquet":
-        arrow = optional("pyarrow", "writing Parquet", "parquet")
-        parquet = optional("pyarrow.parquet", "writing Parquet", "parquet")
-        columns = {}
-        for name in names:
-            values = [row[name] for row in rows]
-            kinds = {type(value) for value in values if value is not None}
-            if kinds == {int, float}:
-                values = [None if value is None else float(value) for value in values]
-            elif len(kinds) > 1 or kinds - {int, float, str, bool}:
-                values = [None if value is None else str(value) for value in values]
-            columns[name] = values
-        data = io.BytesIO()
-        parquet.write_table(arrow.table(columns), data)
-        write_whole(place, data.getvalue())
-        return
-    if place.suffix != ".csv":
-        raise bad("path", str(place), "a name that ends in .csv or .parquet", "such a name")
-    text = io.StringIO()
-    lines = csv.DictWriter(text, names, lineterminator="\n")
-    lines.writeheader()
-    lines.writerows(rows)
-    write_whole(place, text.getvalue().encode())
+    tables.write(place, {name: tables.kind(row[name] for row in rows) for name in names}, rows)

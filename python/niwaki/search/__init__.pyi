@@ -14,4 +14,6 @@ from .entry import grow_search as grow_search
 from .entry import run as run
 from .keeper import Stage as Stage
 from .request import Search as Search
+from .space import Parameter as Parameter
+from .space import Space as Space
 from .warnings import SearchWarning as SearchWarning

@@ -13,7 +13,8 @@ import pytest
 from niwaki import _engine
 from niwaki.draw.scene import Scene
 from niwaki.errors import InputError
-from niwaki.fitting import Answer, Failure, FitLoop, Goal, Outcome, Parameter, Space, number
+from niwaki.fitting import Answer, Failure, FitLoop, Goal, Outcome, number
+from niwaki.search import Parameter, Space
 from niwaki.words.distributions import Bernoulli, DiscreteUniform, Gaussian, LogNormal, Uniform
 
 SPACE = {
