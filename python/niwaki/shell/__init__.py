@@ -29,6 +29,7 @@
 | `replay_changed.py` | `niwaki replay --anyway`: a stored result, with a model that has changed |
 | `reports.py` | reports on a model and its runs, as values |
 | `request.py` | the search that the flags of `grow` describe |
+| `requirements.py` | requirements beside a model, which results have to keep |
 | `results.py` | a folder of results: run.json and the files beside it |
 | `resume.py` | `--resume`: a search that was stopped or killed |
 | `run_files.py` | run.json: a search and its runs as a file |
