@@ -17,6 +17,7 @@
 | `formats.py` | the formats in which a result is written |
 | `grow.py` | `niwaki grow`: a search, written to a folder |
 | `guide.py` | `niwaki guide`: training of a guide, and a report about one |
+| `init.py` | `niwaki init`: a folder to begin with |
 | `letters.py` | `niwaki letters`: a text in vines or lightning |
 | `main.py` | the program: streams, errors, exit codes |
 | `mcp.py` | `niwaki mcp`: the studio's messages as tools for programs |

@@ -69,10 +69,14 @@ class Requirements(Struct, frozen=True, forbid_unknown_fields=True):
 
     def over(self, samples: Iterable[Sample]) -> list[RequirementRow]:
         """Count the runs that keep each requirement."""
-        each = [self.judged(sample) for sample in samples]
+        runs = list(samples)
+        each = [self.judged(sample) for sample in runs]
+        has_target = any(sample.fit is not None for sample in runs)
         rows = self.rows()
         for place, row in enumerate(rows):
-            row.value = f"kept by {sum(bool(judged[place].holds) for judged in each)} of {len(each)} runs"
+            count = sum(bool(judged[place].holds) for judged in each)
+            needs_target = row.name in ("covered", "outside") and not has_target
+            row.value = "needs a target" if needs_target else f"kept by {count} of {len(each)} runs"
         return rows
 
     def unmet(self, sample: Sample) -> list[str]:
