@@ -13,6 +13,7 @@ import typer
 
 #: The commands and their help. The module of a command is loaded when the command is used.
 COMMANDS = {
+    "init": "Write a folder to begin with: a model, its target, requirements, a test.",
     "models": "List the gallery: name, how to run it, target, title.",
     "show": "Draw runs of a model side by side, with no target.",
     "grow": "Grow a model into its target.",

@@ -117,10 +117,17 @@ export interface Write {
   id?: number;
 }
 
+/** The key of a result: the number of its run, and its place in the run. */
+export interface Key {
+  run: number;
+  number?: number;
+}
+
 /** Compile a model; report its functions and choices, advice, and the requirements that its results must keep. */
 export interface Check {
   kind: "check";
   reference?: string;
+  key?: Key | null;
   id?: number;
 }
 
@@ -219,12 +226,6 @@ export interface Rewrite {
   kind: "rewrite";
   difference: string;
   id?: number;
-}
-
-/** The key of a result: the number of its run, and its place in the run. */
-export interface Key {
-  run: number;
-  number?: number;
 }
 
 /** Request the choices of a result, with their places in the source. */
@@ -525,15 +526,15 @@ export interface AdviceRow {
   text: string;
 }
 
-/** A requirement beside a model: its name, what it asks for, and what holds. */
+/** A requirement beside a model. */
 export interface RequirementRow {
   name: string;
-  wanted: string;
+  text: string;
   holds: boolean | null;
-  found: string;
+  value: string;
 }
 
-/** What `niwaki check` reports. */
+/** A report on a model: its functions and choices, advice, and requirements. */
 export interface CheckReport {
   model: string;
   arguments: string;
@@ -558,7 +559,7 @@ export interface RunRow {
   value: string;
 }
 
-/** What `niwaki show` reports. */
+/** A report on runs of a model without a target. */
 export interface ShowReport {
   runs: RunRow[];
 }

@@ -40,6 +40,11 @@ def in_the_studio(_: Path) -> None:
     raise cast(Exception, CliRunner().invoke(app, ["studio", "--no-browser"]).exception)
 
 
+def by_tools(folder: Path) -> None:
+    sys.modules.pop("niwaki.agents.server", None)
+    raise cast(Exception, CliRunner().invoke(app, ["mcp", str(folder)]).exception)
+
+
 def on(engine: str) -> Callable[[Path], object]:
     return lambda _: clusters.ENGINES[engine](1).__enter__()
 
@@ -50,6 +55,7 @@ NEEDS: list[tuple[str, str, Callable[[Path], object]]] = [
     ("cluster", "distributed", on("dask")),
     ("cluster", "ray", on("ray")),
     ("color", "resvg_py", lambda _: raster("<svg/>", 8)),
+    ("mcp", "mcp", by_tools),
     ("notebook", "anywidget", lambda _: View([]).widget()),
     ("parquet", "pyarrow", lambda folder: tables.write_parquet(folder / "a.parquet", {}, [])),
     ("print", "manifold3d", printed),

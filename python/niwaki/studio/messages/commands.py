@@ -111,9 +111,13 @@ class Check(Command, tag="check"):
     ----------
     reference
         The model; the present model when left out.
+    key
+        The result that is held against the requirements; when left out, runs without a target tell how often each of
+        them holds.
     """
 
     reference: Text = ""
+    key: Key | None = None
 
 
 class Preview(Command, tag="preview"):

@@ -57,9 +57,12 @@ class Load(Job, tag="load"):
 
 
 class CheckModel(Job, tag="check"):
-    """Compile a model, and report on it."""
+    """Compile a model, and report on it; a result of `source` is held against the requirements beside the model."""
 
     reference: str
+    arguments: dict[str, Any] = {}
+    source: str = ""
+    number: int = 0
 
 
 class PreviewRuns(Job, tag="preview"):

@@ -30,12 +30,16 @@ def check(session: Session, window: Window, command: m.Check) -> Awaitable[m.Ans
     reference = command.reference or _model(session)
     if session.root is not None and is_program(reference):
         reference = session.root.reference(reference)
-    return check_model(session, window, command.id, reference)
+    result = {} if command.key is None else session.source(command.key)
+    job = m.CheckModel(**result, reference=reference)
+    if reference == session.document.model:
+        job.arguments = session.document.arguments
+    return check_model(session, window, command.id, job)
 
 
-async def check_model(session: Session, window: Window, command: int, reference: str) -> m.Answer:
-    """Compile the model of a reference with a resolved path, and report on it."""
-    return await session.desk.do(m.CheckModel(reference=reference), answering(window, command))
+async def check_model(session: Session, window: Window, command: int, job: m.CheckModel) -> m.Answer:
+    """Compile a model, and send the report to a window."""
+    return await session.desk.do(job, answering(window, command))
 
 
 async def preview(session: Session, window: Window, command: m.Preview) -> m.Answer:

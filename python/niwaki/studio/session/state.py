@@ -105,8 +105,10 @@ class Session:
 
     async def end(self) -> None:
         """End the workers, and close the journal."""
-        for task in self._tasks:
+        tasks = [*self._tasks]
+        for task in tasks:
             task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
         await asyncio.gather(self.searcher.kill(), self.desk.kill())
         self.journal.close()
 

@@ -28,7 +28,7 @@ from niwaki.studio.messages import (
     Progressed,
 )
 from niwaki.studio.problems import CommandError
-from niwaki.studio.worker import asks, coloring, models, pictures
+from niwaki.studio.worker import asks, coloring, models, pictures, runs
 from niwaki.studio.worker.loading import loading
 from niwaki.targets import asks as options
 
@@ -36,7 +36,8 @@ from niwaki.targets import asks as options
 def check(job: CheckModel, send: Any) -> Answer:
     """Compile a model, and report on it."""
     _refuse_drawing(job.reference)
-    send(Checked(job.id, checking.report(models.reference(job.reference))))
+    sample = runs.sample(job.source, job.number) if job.source else None
+    send(Checked(job.id, checking.report(models.reference(job.reference), sample, job.arguments)))
     return Answer()
 
 
@@ -45,14 +46,14 @@ def preview(job: PreviewRuns, send: Any) -> Answer:
     _refuse_drawing(job.question.model)
     model = models.reference(job.question.model)
     values = {**showing.start(model), **job.question.arguments}
-    runs = showing.prior_runs(model.model, values, job.count, job.seed)
-    send(Previewed(job.id, showing.report(runs)))
-    if any(sample.primitives for sample in runs):
-        across = min(3, len(runs))
+    result = showing.prior_runs(model.model, values, job.count, job.seed)
+    send(Previewed(job.id, showing.report(result)))
+    if any(sample.primitives for sample in result):
+        across = min(3, len(result))
 
         def sheet(size: tuple[int, int]) -> Any:
             cell = size[0] * 3 // (2 * across), size[1] * 3 // (2 * across)
-            return showing.sheet(model, runs, size=cell, samples=1, columns=across)
+            return showing.sheet(model, result, size=cell, samples=1, columns=across)
 
         send(Picture(job.id), pictures.small(sheet))
     return Answer()

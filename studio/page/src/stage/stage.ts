@@ -137,6 +137,11 @@ export class Stage {
     return all.map(({ material }) => material);
   }
 
+  /** Whether the canvas shows the present contents. */
+  get isDrawn(): boolean {
+    return !this.isAsked;
+  }
+
   /** Draws with the next frame. */
   draw(): void {
     if (this.isAsked) return;
@@ -416,9 +421,10 @@ export class Stage {
     return [round(-0.6 * ahead.x - 0.25 * ahead.z), -1, round(-0.6 * ahead.z + 0.25 * ahead.x)];
   }
 
-  /** Lets the camera move to the next contents. */
+  /** Lets the camera move to the contents of another model; the former target counts no more, though it is drawn until the next one arrives. */
   forget(): void {
     this.isFramed = this.isSettled = false;
+    this.ghostBox.makeEmpty();
   }
 
   /** Returns the camera in the form of a sketch. */
