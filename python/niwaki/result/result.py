@@ -18,6 +18,7 @@ from niwaki import _engine, draw, targets
 from niwaki.draw.scene import Scene
 from niwaki.errors import InputError
 from niwaki.errors.settings import bad
+from niwaki.lang import lookup
 from niwaki.lang.compiled import LOOSEN
 from niwaki.lang.models import Model
 from niwaki.methods import Method, Mh, at_least_one
@@ -365,13 +366,13 @@ class Result(Sequence[Sample]):
         possible = [(s, float(w)) for s, w in zip(self.samples, self.weights, strict=True) if w > 0.0]
         if not any(choice in sample.choices for sample, _ in possible):
             known = [*dict.fromkeys(address for sample, _ in possible for address in sample.choices)]
-            nearest = ", ".join(f"`{address}`" for address in _engine.nearest(choice, known))
-            raise InputError(
-                "no-address",
-                pattern=choice,
-                name=self.model.name,
-                nearest=nearest or "none: it has no choice",
-            )
+            named = lookup.matching(self.model.labels, choice, known)
+            if len(named) == 1:
+                return [(sample.choices.get(named[0]), weight) for sample, weight in possible]
+            if named:
+                raise lookup.ambiguous(self.model.labels, choice, named, self.model.name)
+            nearest = lookup.nearest(self.model.labels, choice, known, "choice")
+            raise InputError("no-address", pattern=choice, name=self.model.name, nearest=nearest)
         return [(sample.choices.get(choice), weight) for sample, weight in possible]
 
     def export(

@@ -25,10 +25,12 @@ from niwaki.result.info import (
 )
 from niwaki.result.invalid import Invalid
 from niwaki.result.normals import ViInfo
+from niwaki.result.parts import labelled_part
 from niwaki.result.progress import EngineWatch
 from niwaki.result.search_like import SearchLike
 from niwaki.search.checks import check_polish, check_seed, check_threads
 from niwaki.search.keeper import Stage
+from niwaki.search.ranges import translated_run
 from niwaki.search.warnings import SearchWarning, check_reach
 
 
@@ -68,7 +70,7 @@ def run_once(
         return fit_normals(search, search.method, seed, threads, watch, start)
     method, attached = engine_form(search.method)
     counted, clock = search.task.uncounted(), Clock()
-    with translated(search.model.name, f"seed={seed}", model=search.model):
+    with translated_run(search, seed):
         runs, interrupted, counters = counted.search(
             method,
             seed,
@@ -149,7 +151,7 @@ def run_chains(
     text, attached = engine_form(method)
     counted = search.task.uncounted()
     part = None if stage is None else stage.engine
-    with translated(search.model.name, f"seed={seed}", model=search.model):
+    with translated_run(search, seed):
         chains = _engine.Chains(
             counted, text, seed, attached=attached, start=start, threads=threads, checkpoint=part
         )
@@ -172,7 +174,7 @@ def run_trajectories(
 ) -> Result:
     """Run chains that follow the gradient."""
     counted, clock = search.task.uncounted(), Clock()
-    with translated(search.model.name, f"seed={seed}", model=search.model):
+    with translated_run(search, seed):
         chains = _engine.Trajectories(
             counted, method.text()[0], seed, start=start, threads=threads, watch=watch
         )
@@ -192,7 +194,7 @@ def fit_normals(
 ) -> Result:
     """Fit normals to the model's distribution."""
     counted, clock = search.task.uncounted(), Clock()
-    with translated(search.model.name, f"seed={seed}", model=search.model):
+    with translated_run(search, seed):
         normals = _engine.Normals(counted, method.text()[0], seed, start=start, threads=threads, watch=watch)
     info = ViInfo.of(search, seed, normals)
     result = _result_of_draws(counted, info, normals.interrupted, clock)
@@ -236,7 +238,8 @@ def regrow(
         expected = "a run that has ended"
         raise bad("sample", sample, expected, "more time or particles")
     clock, single = Clock(), replace(search, runs=1, keep="all", polish=None)
-    with translated(search.model.name, f"seed={seed}", model=search.model):
+    part = labelled_part(part, sample.choices, search.model)
+    with translated_run(search, seed):
         runs = search.task.regrow(sample._run, part, particles, power, seed, threads)
     seconds = clock.read()
     return Result(single, [Sample(run, single, seed, *seconds) for run in runs], seed, seconds=seconds)

@@ -18,6 +18,7 @@ from niwaki import result as results
 from niwaki.errors import InputError
 from niwaki.errors.folders import held_folder
 from niwaki.errors.schema import fitted
+from niwaki.result import parts
 from niwaki.shares import percent
 from niwaki.shell import (
     controls,
@@ -97,7 +98,8 @@ def grow(
     style = reference.style or ("ink" if any(sketch in DRAWN for sketch in drawn) else None)
     files = formats.Files.of_flags(flags, style, single_file)
     with clock.part("target"):
-        hold = {**values, **(earlier.held if earlier else {})}
+        # A value is more definite than a pattern that matches its choice, too.
+        hold = {**(earlier.held if earlier else {}), **parts.held(values, None, (), reference.model)}
         if earlier is None or has_goals:
             search = request.search_of(
                 reference, asks, search_flags, method_settings, arguments, hold or None

@@ -66,7 +66,7 @@ FLAGS = {
     "--bytecode": ("--bytecode", None, "Print the bytecode."),
     "--from": ("--from", "RUN.JSON", "A result to start from"),
     "--run": ("--run", "N", "Number of the result"),
-    "--hold": ("--hold", "PATTERN|ADDRESS=VALUE", "Hold the parts of the result of --from"),
+    "--hold": ("--hold", "PATTERN|NAME=VALUE", "Hold the parts of the result of --from"),
     "--reroll": ("--reroll", "PATTERN", "Grow the parts again that match PATTERN"),
     # What a scene should be like.
     "--target": ("--target", "FILE", "A mesh to fill"),

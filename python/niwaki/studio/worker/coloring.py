@@ -157,7 +157,9 @@ def hold(job: Hold) -> Answer:
     colors = stored(job.source, job.number).colors
     for name in job.parts:
         if name not in colors:
-            raise InputError("no-part", pattern=name, name="the drawing", parts=", ".join(colors))
+            raise InputError(
+                "no-part", pattern=name, name="the drawing", parts=f"its regions are {', '.join(colors)}"
+            )
     return Answer(held=[HeldPart(name, {name: colors[name]}) for name in job.parts])
 
 
