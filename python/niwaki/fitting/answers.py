@@ -21,6 +21,7 @@ from niwaki.errors import InputError
 from niwaki.errors.settings import bad, count, real
 from niwaki.fitting.goals import Outcome
 from niwaki.once import cached_property
+from niwaki.search.space import Axis
 from niwaki.targets.differences import VolumeDifferences
 
 if TYPE_CHECKING:
@@ -140,12 +141,20 @@ class Effect:
         The length of the change of all differences, when the parameter moves by a tenth of its range or to its next
         level.
     blocks : (x, y, z) float64 or None
-        The cells that change in each block of the target's grid; None without a target volume.
+        The cells that each block of the target's grid gains, below 0 for those that it loses; None without a target
+        volume.
+    values : tuple
+        The values between which the parameter moves, the lower one first.
     """
 
     name: str
     size: float
     blocks: NDArray[np.float64] | None
+    values: tuple[Any, Any]
+
+    def __str__(self) -> str:
+        low, high = (f"{value:.3g}" if isinstance(value, float) else str(value) for value in self.values)
+        return f"{self.name}: {low} to {high}"
 
 
 class Answers(Sequence[Answer]):
@@ -310,38 +319,49 @@ class Answers(Sequence[Answer]):
         """
         self._check()
         best = self._loop.points[self.best.number]
-        steps: list[tuple[str, list[list[float]]]] = []
+        steps: list[tuple[Axis, list[float], list[list[float]]]] = []
         for k, axis in enumerate(self.space.axes):
             if not best.used[k]:
                 continue
             if axis.range is not None:
-                ends = [min(best.row[k] + 0.05, 1.0), max(best.row[k] - 0.05, 0.0)]
+                ends = [max(best.row[k] - 0.05, 0.0), min(best.row[k] + 0.05, 1.0)]
             else:
                 levels = len(axis.values)
                 level = min(int(best.row[k] * levels), levels - 1)
                 if levels == 1:
                     continue
                 other = level + 1 if level + 1 < levels else level - 1
-                ends = [(level + 0.5) / levels, (other + 0.5) / levels]
+                ends = [(number + 0.5) / levels for number in sorted((level, other))]
             pair = []
             for end in ends:
                 row = list(best.row)
                 row[k] = end
                 pair.append(self._loop.proposer.snap(row)[0])
-            steps.append((axis.name, pair))
-        rows = np.array([row for _, pair in steps for row in pair])
+            steps.append((axis, ends, pair))
+        rows = np.array([row for _, _, pair in steps for row in pair])
         means, _ = self._loop.proposer.predict(rows)
-        changes = means[0::2] - means[1::2]
+        changes = means[1::2] - means[0::2]
         blocks = self._blocks(changes)
         out = [
-            Effect(name, float(np.sqrt((changes[k] ** 2).sum())), None if blocks is None else blocks[k])
-            for k, (name, _) in enumerate(steps)
+            Effect(
+                axis.name,
+                float(np.sqrt((changes[k] ** 2).sum())),
+                None if blocks is None else blocks[k],
+                (axis.value(ends[0]), axis.value(ends[1])),
+            )
+            for k, (axis, ends, _) in enumerate(steps)
         ]
         return sorted(out, key=lambda effect: -effect.size)
 
     def picture(self, size: int = 160) -> Image:
         """Draw the sensitivity: for each parameter a bar, and the parts that it moves, seen from the front."""
-        return fitting.effects.drawn(self.sensitivity(), size)
+        volume = self._volume
+        body = None if volume is None else volume.blocks()
+        return fitting.effects.drawn(self.sensitivity(), body, size)
+
+    @property
+    def _volume(self) -> VolumeDifferences | None:
+        return next((part for part in self.goal.parts if isinstance(part, VolumeDifferences)), None)
 
     def _kind(self, answer: Answer) -> tuple[Any, ...]:
         return tuple(answer.parameters.get(axis.name, ...) for axis in self.space.axes if axis.range is None)
@@ -401,7 +421,7 @@ class Answers(Sequence[Answer]):
 
     def _blocks(self, changes: NDArray[np.float64]) -> NDArray[np.float64] | None:
         """The changes of the cells in blocks, from changes along the emulator's directions."""
-        volume = next((part for part in self.goal.parts if isinstance(part, VolumeDifferences)), None)
+        volume = self._volume
         if volume is None:
             return None
         start = self.goal.parts.index(volume)
