@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 from statistics import NormalDist
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -99,7 +99,8 @@ class Interval:
     low, high : float or None
         The ends; None for a parameter with levels.
     levels : dict or None
-        The probabilities of the levels; None for a real number.
+        The probabilities of the levels, calibrated by evaluations with known levels; None for a real number, and where
+        too few evaluations calibrate them.
     used : float
         The probability that the parameter is used.
     identified : bool
@@ -124,6 +125,8 @@ class Interval:
     def __str__(self) -> str:
         if not self.identified:
             return f"{self.name}: the goal does not tell"
+        if self.low is None and self.levels is None:
+            return f"{self.name}: too few evaluations to tell how probable its values are"
         if self.levels is not None:
             return f"{self.name}: " + ", ".join(f"{level} {p:.0%}" for level, p in self.levels.items())
         return f"{self.name}: {self.low:.4g} to {self.high:.4g} ({self.share:.0%})"
@@ -272,7 +275,7 @@ class Answers(Sequence[Answer]):
         """
         axis, number = self.space.axis(name), self.space.names.index(name)
         real("share", share, 0, 1)
-        power, covered = self._calibrated(share)
+        power, covered, doubt = self._calibrated(share)
         rows, used = self._posterior(power)
         on = used[:, number]
         probability = float(on.mean())
@@ -292,9 +295,14 @@ class Answers(Sequence[Answer]):
                 power,
                 covered,
             )
+        if doubt is None:
+            # Shares of chains that nothing calibrates would only look like probabilities.
+            return Interval(name, share, None, None, None, probability, self._tells(number), power, covered)
         shares = dict.fromkeys(axis.values, 0.0)
         for place in places:
-            shares[axis.value(float(place))] += 1.0 / len(places)
+            shares[axis.value(float(place))] += (1.0 - doubt) / len(places)
+        for value, before in _shares_beforehand(axis).items():
+            shares[value] += (doubt if len(places) else 1.0) * before
         is_certain = max(shares.values(), default=0.0) > 1.0 / max(len(shares), 1) + 0.1
         is_told = is_certain and self._tells(number)
         return Interval(name, share, None, None, shares, probability, is_told, power, covered)
@@ -381,40 +389,48 @@ class Answers(Sequence[Answer]):
         return self._posteriors[power]
 
     @cached_property
-    def _powers(self) -> dict[float, tuple[float, float | None]]:
+    def _calibrations(self) -> dict[float, Calibration]:
         return {}
 
-    def _calibrated(self, share: float) -> tuple[float, float | None]:
-        """The sharpest power whose intervals cover a share of the known parameters, and the share that they cover."""
-        if share not in self._powers:
-            self._powers[share] = self._calibrate(share)
-        return self._powers[share]
+    def _calibrated(self, share: float) -> Calibration:
+        """What evaluations near the best, as targets with known parameters, tell about posteriors."""
+        if share not in self._calibrations:
+            self._calibrations[share] = self._calibrate(share)
+        return self._calibrations[share]
 
-    def _calibrate(self, share: float) -> tuple[float, float | None]:
+    def _calibrate(self, share: float) -> Calibration:
         near = self._seen[: 3 * PSEUDO : 3] if len(self._seen) >= 3 * PSEUDO else self._seen[:PSEUDO]
         reals = [k for k, axis in enumerate(self.space.axes) if axis.range is not None]
-        if len(near) < FEWEST or len(self._seen) < 5 * FEWEST or not reals:
-            return FALLBACK, None
-        last: tuple[float, float | None] = (FALLBACK, None)
+        if len(near) < FEWEST or len(self._seen) < 5 * FEWEST:
+            return Calibration(FALLBACK, None, None)
         bell = NormalDist()
         deviations = bell.inv_cdf(0.5 + 0.5 * share)
-        for power, ratio in POWERS.items():
+        last = Calibration(FALLBACK, None, None)
+        for power, ratio in POWERS.items() if reals else [(FALLBACK, 1.0)]:
             inside = total = 0
+            known: list[tuple[float, float]] = []
             for answer in near:
                 point = self._loop.points[answer.number]
                 rows, used = self._loop.proposer.posterior(
                     power, self._loop.seed + 1, SHORT[0], SHORT[1], answer.number
                 )
-                for k in reals:
-                    if point.used[k] and used[:, k].any():
-                        low, high = _ends(rows[used[:, k], k], share)
+                for k, axis in enumerate(self.space.axes):
+                    if not point.used[k]:
+                        continue
+                    places = rows[used[:, k], k]
+                    if axis.range is None:
+                        share_of_truth = float((places == point.row[k]).mean()) if len(places) else 0.0
+                        known.append((share_of_truth, _shares_beforehand(axis)[axis.value(point.row[k])]))
+                    elif len(places):
+                        low, high = _ends(places, share)
                         inside += low <= point.row[k] <= high
                         total += 1
+            doubt = _doubt(known, len(near))
             if not total:
-                return FALLBACK, None
+                return Calibration(FALLBACK, None, doubt)
             before = 2.0 * bell.cdf(ratio * deviations) - 1.0
             weight = EACH * len(reals)
-            last = (power, inside / total)
+            last = Calibration(power, inside / total, doubt)
             if weight * inside / total + BEFORE * before >= share * (weight + BEFORE):
                 return last
         return last
@@ -439,6 +455,52 @@ class Answers(Sequence[Answer]):
         back, *_ = np.linalg.lstsq(along, np.array(features), rcond=1e-6)
         scale = volume.unit * volume.weight
         return (changes @ back / scale).reshape(len(changes), *shape)
+
+
+class Calibration(NamedTuple):
+    """The lesson of known parameters about posteriors.
+
+    Attributes
+    ----------
+    power : float
+        The power of the likelihood.
+    covered : float or None
+        The share of the known real numbers that intervals cover with it.
+    doubt : float or None
+        The share of what is known beforehand in the probabilities of levels; None for too few known levels.
+    """
+
+    power: float
+    covered: float | None
+    doubt: float | None
+
+
+def _shares_beforehand(axis: Axis) -> dict[Any, float]:
+    """The probabilities of the levels of a parameter by its range."""
+    weights = axis.weights or (1.0,) * len(axis.values)
+    return {value: weight / sum(weights) for value, weight in zip(axis.values, weights, strict=True)}
+
+
+def _doubt(known: Sequence[tuple[float, float]], count: int) -> float | None:
+    """The share of what is known beforehand that makes probabilities of levels true: its mean, by known levels.
+
+    Chains change their levels seldom, so that their shares are too sure. The known levels of one target are not
+    independent: together they count as often as there are targets. Without any the probabilities are withheld.
+
+    Parameters
+    ----------
+    known
+        For each known level, its share of the chains, and its probability beforehand.
+    count
+        The number of targets.
+    """
+    if len(known) < FEWEST:
+        return None
+    shares, before = np.array(known).T
+    doubts = np.linspace(0.005, 0.995, 100)
+    logs = np.log(doubts[:, None] * before + (1.0 - doubts[:, None]) * shares).sum(1) * count / len(known)
+    weights = np.exp(logs - logs.max())
+    return float((doubts * weights).sum() / weights.sum())
 
 
 def _ends(places: NDArray[np.float64], share: float) -> tuple[float, float]:

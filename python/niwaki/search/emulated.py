@@ -17,10 +17,10 @@ import numpy as np
 
 from niwaki import _engine
 from niwaki.draw.scene import Scene
-from niwaki.errors import InputError
+from niwaki.errors import InputError, NiwakiError
 from niwaki.lang.compiled import translated
 from niwaki.methods import Emulate
-from niwaki.result.invalid import Invalid, merged
+from niwaki.result.invalid import Invalid
 from niwaki.result.progress import EngineWatch
 from niwaki.result.search_like import SearchLike
 from niwaki.search.space import Parameter, Space
@@ -62,8 +62,8 @@ class Structure:
     is_apart: bool
 
 
-def structure(search: SearchLike, seed: int, runs: int = RUNS) -> Structure:
-    """Return the choices of a model, from runs at random.
+def structure(search: SearchLike, task: _engine.Task, seed: int, runs: int = RUNS) -> Structure:
+    """Return the choices of a model, from runs at random of its task.
 
     Raises
     ------
@@ -71,12 +71,14 @@ def structure(search: SearchLike, seed: int, runs: int = RUNS) -> Structure:
         A distribution differs from run to run or draws rows of numbers; there are no choices, or too many.
     """
     traces: dict[int, _engine.Trace] = {}
-    for number in range(runs):
-        trace = _run(search, {}, _seed(seed, number))
-        if isinstance(trace, _engine.Trace):
-            traces[number] = trace
-    if not traces:
-        raise Unsuited("none of its first runs is valid")
+    with translated(search.model.name, f"seed={seed}", model=search.model):
+        for number in range(runs):
+            try:
+                traces[number] = task.replay({}, _seed(seed, number))
+            except _engine.EngineFault as fault:
+                # A fault in every run is a fault of the model.
+                if not fault.invalid or (number == runs - 1 and not traces):
+                    raise
     parameters: dict[str, Parameter] = {}
     for trace in traces.values():
         for choice in _free(search, trace):
@@ -114,8 +116,9 @@ def suits(search: SearchLike) -> bool:
     if _text_has_factors(search) or not differences(search.score)[0]:
         return False
     try:
-        shown = structure(search, search.seed, 4)
-    except (Unsuited, InputError, _engine.EngineFault):
+        shown = structure(search, search.task.uncounted(), search.seed, 4)
+    except (Unsuited, NiwakiError):
+        # The search itself tells what is wrong with the model.
         return False
     return (shown.is_dear or shown.is_apart) and len(shown.space.axes) >= FEW
 
@@ -133,7 +136,7 @@ def check(search: SearchLike) -> None:
         reason = "its score has nothing to learn from but one number: no volume, image, obstacle or box"
     else:
         try:
-            structure(search, search.seed)
+            structure(search, search.task.uncounted(), search.seed)
         except Unsuited as error:
             reason = str(error)
     if reason:
@@ -156,6 +159,8 @@ class Emulated:
         The invalid runs by place.
     choices : int
         The number of choices that it searched.
+    evaluations : int
+        The number of all runs.
     """
 
     runs: list[_engine.Run]
@@ -163,11 +168,7 @@ class Emulated:
     interrupted: bool
     invalid: tuple[Invalid, ...]
     choices: int
-
-    @property
-    def evaluations(self) -> int:
-        """The number of all runs."""
-        return len(self.runs) + sum(entry.runs for entry in self.invalid)
+    evaluations: int
 
 
 def emulated(search: SearchLike, seed: int, watch: EngineWatch) -> Emulated:
@@ -180,18 +181,19 @@ def emulated(search: SearchLike, seed: int, watch: EngineWatch) -> Emulated:
     """
     assert isinstance(search.method, Emulate)
     parts, _ = differences(search.score)
+    task = search.task.uncounted()
     try:
-        shown = structure(search, seed)
+        shown = structure(search, task, seed)
     except Unsuited as error:
         raise InputError("no-emulator", name=search.model.name, reason=str(error)) from error
     space = shown.space
     proposer = _engine.Proposer(dumps(space.data()), seed)
-    known: dict[tuple[float, ...], _engine.Trace | Invalid] = {}
+    known: dict[tuple[float, ...], _engine.Trace] = {}
     for first in list(shown.traces.values())[::-1]:
         row = proposer.snap(_row(space, search, first))[0]
         known[tuple(row)] = first
         proposer.suggest(row)
-    out = Emulated([], [], False, (), len(space.axes))
+    out = Emulated([], [], False, (), len(space.axes), 0)
     best: _engine.Run | None = None
     try:
         for number in range(search.method.evaluations):
@@ -201,9 +203,9 @@ def emulated(search: SearchLike, seed: int, watch: EngineWatch) -> Emulated:
                 break
             row, used = point
             values = space.values(row, used)
-            trace = known.get(tuple(row)) or _run(search, values, _seed(seed, RUNS + number))
-            if isinstance(trace, Invalid):
-                out.invalid = merged(out.invalid, [trace])
+            out.evaluations += 1
+            trace = known.get(tuple(row)) or _valid(search, task, values, _seed(seed, RUNS + number))
+            if trace is None:
                 proposer.tell(-inf, None)
                 continue
             made = {choice.path for choice in trace.choices}
@@ -220,6 +222,7 @@ def emulated(search: SearchLike, seed: int, watch: EngineWatch) -> Emulated:
         if not out.runs:
             raise
         out.interrupted = True
+    out.invalid = tuple(Invalid(*fields) for fields in task.invalid())
     return out
 
 
@@ -230,17 +233,17 @@ def _features(parts: Sequence[Differences], trace: _engine.Trace) -> Any:
     return np.concatenate([part(shapes, scene) for part in parts]).astype(np.float32)
 
 
-def _run(search: SearchLike, values: Mapping[str, Any], seed: int) -> _engine.Trace | Invalid:
-    """Make a run with some values; the seed draws what they lack."""
-    try:
-        return search.task.replay(dict(values), seed)
-    except _engine.EngineFault as fault:
-        if fault.invalid:
-            function, path, span = fault.stack[-1] if fault.stack else ("", "", (0, 0, 0, 0))
-            name = fault.subject or function
-            return Invalid(name, path, span[0], 1, fault.message, fault.help or "")
-        with translated(search.model.name, f"seed={seed}", model=search.model):
-            raise
+def _valid(
+    search: SearchLike, task: _engine.Task, values: Mapping[str, Any], seed: int
+) -> _engine.Trace | None:
+    """Make a run with some values, and draw what they lack by the seed; None for an invalid run."""
+    with translated(search.model.name, f"seed={seed}", model=search.model):
+        try:
+            return task.replay(dict(values), seed)
+        except _engine.EngineFault as fault:
+            if not fault.invalid:
+                raise
+    return None
 
 
 def _seed(seed: int, number: int) -> int:
