@@ -38,7 +38,8 @@ def by_search(rows: Sequence[Row]) -> list[str]:
             )
             lines.append(
                 f"| {name} | {mark} | {len(seeds)} | {_middle(rows_here, 'score'):.2f} | "
-                f"{_middle(rows_here, 'iou'):.2f} | {solved:g} of {problems} | {_mean(rows_here, 'switches')} | {_mean(rows_here, 'error')} | "
+                f"{_middle(rows_here, 'iou'):.2f} | {solved:g} of {problems} | "
+                f"{_mean(rows_here, 'switches')} | {_mean(rows_here, 'error')} | "
                 f"{_middle(rows_here, 'overhead'):.1f} |"
             )
     return lines

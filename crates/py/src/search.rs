@@ -364,7 +364,13 @@ impl PyTask {
             None if partial => Missing::Stop,
             None => Missing::Refuse,
         };
-        let trace = self.at_once(py, || replay(&self.task, Source::Paths(&paths), missing))?;
+        let trace = self.at_once(py, || {
+            let made = replay(&self.task, Source::Paths(&paths), missing);
+            if let Err(Failure::Run(met)) = &made {
+                self.task.invalid.count(met);
+            }
+            made
+        })?;
         PyTrace::new(py, trace, classes)
     }
 }

@@ -317,6 +317,34 @@ class Round(NamedTuple):
 
 
 @dataclass(frozen=True)
+class EmulateInfo(Info):
+    """Statistics of `emulate`; of several results, of the search with the best one.
+
+    Attributes
+    ----------
+    evaluations : int
+        The number of runs, with those that were invalid.
+    choices : int
+        The number of choices that were searched.
+    best_at : int
+        The number of the best run, from 0.
+    searches : int
+        The number of searches for results that differ.
+    """
+
+    evaluations: int = 0
+    choices: int = 0
+    best_at: int = 0
+    searches: int = 1
+
+    def __str__(self) -> str:
+        """The number of runs, and which was the best."""
+        return (
+            f"emulator: {self.evaluations} runs of {self.choices} choices; the best is run {self.best_at + 1}"
+        )
+
+
+@dataclass(frozen=True)
 class ImproveInfo(Info):
     """Statistics of `improve`; of several results, of the search with the best one. Its text describes the rounds.
 
@@ -382,6 +410,7 @@ INFOS: dict[str, type[Info]] = {
     "particle_gibbs": SweepInfo,
     "pimh": SweepInfo,
     "improve": ImproveInfo,
+    "emulate": EmulateInfo,
 }
 
 

@@ -8,6 +8,7 @@ checks      checks before a search starts
 checkpoint  the file from which a search resumes after its process was killed
 keeper      checkpoints of running searches: when they are written, and their stages
 execution   the runs of a search one after the other, resumed, polished, and with warnings
+emulated    searches by an emulator: the choices of a model as a space, and whether they suit
 engine_runs one run of a search on the engine, by its method
 collisions  parts of a scene that break its constraints
 space       parameters of a model, as a row of the unit cube

@@ -7,6 +7,7 @@ from .drag.source import SourceChange as SourceChange
 from .entry import GUIDED as GUIDED
 from .entry import OF_IMPROVE as OF_IMPROVE
 from .entry import POWER as POWER
+from .entry import by_program as by_program
 from .entry import default_method as default_method
 from .entry import explain as explain
 from .entry import grow as grow

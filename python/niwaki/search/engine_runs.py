@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import time
+from collections import Counter
 from dataclasses import replace
+from math import inf
 
 from niwaki import _engine
+from niwaki.errors import InputError
 from niwaki.errors.memory import check_room
 from niwaki.errors.settings import bad
 from niwaki.errors.warned import warn
-from niwaki.lang.compiled import translated
+from niwaki.lang.compiled import LOOSEN, translated
 from niwaki.lang.models import as_model
-from niwaki.methods import Guide, Hmc, Method, Mh, Nuts, ParticleGibbs, Vi, at_least_one
+from niwaki.methods import Emulate, Guide, Hmc, Method, Mh, Nuts, ParticleGibbs, Vi, at_least_one
 from niwaki.methods.room import PARTICLE, check_method
 from niwaki.result import Result, Sample
 from niwaki.result.chains import MhInfo, Running
@@ -19,6 +22,7 @@ from niwaki.result.drawn import Drawn, DrawnInfo
 from niwaki.result.hmc import HmcInfo
 from niwaki.result.info import (
     INFOS,
+    EmulateInfo,
     ImproveInfo,
     Info,
     PopulationInfo,
@@ -28,6 +32,7 @@ from niwaki.result.normals import ViInfo
 from niwaki.result.parts import labelled_part
 from niwaki.result.progress import EngineWatch
 from niwaki.result.search_like import SearchLike
+from niwaki.search import emulated
 from niwaki.search.checks import check_polish, check_seed, check_threads
 from niwaki.search.keeper import Stage
 from niwaki.search.ranges import translated_run
@@ -68,6 +73,8 @@ def run_once(
         return run_trajectories(search, search.method, seed, threads, watch, start)
     if isinstance(search.method, Vi):
         return fit_normals(search, search.method, seed, threads, watch, start)
+    if isinstance(search.method, Emulate):
+        return run_emulator(search, search.method, seed, watch)
     method, attached = engine_form(search.method)
     counted, clock = search.task.uncounted(), Clock()
     with translated_run(search, seed):
@@ -162,6 +169,39 @@ def run_chains(
     result = Result(search, [], seed, method=method, info=info, seconds=spent)
     info._go_on(result, None)
     return result
+
+
+def run_emulator(search: SearchLike, method: Emulate, seed: int, watch: EngineWatch) -> Result:
+    """Search by an emulator; the best run, or several that differ."""
+    clock = Clock()
+    found = emulated.emulated(search, seed, watch)
+    order = sorted(range(len(found.runs)), key=lambda number: -found.runs[number].log_score)
+    if not order or found.runs[order[0]].log_score == -inf:
+        raise _impossible(found)
+    info = EmulateInfo(evaluations=found.evaluations, choices=found.choices, best_at=found.numbers[order[0]])
+    runs = [found.runs[number] for number in order]
+    runs = runs[:1] if method.diverse is None else distinct(runs, method.diverse, info)
+    seconds = clock.read()
+    samples = [Sample(run, search, seed, *seconds) for run in runs]
+    return Result(
+        search,
+        samples,
+        seed,
+        info=info,
+        interrupted=found.interrupted,
+        invalid=list(found.invalid),
+        seconds=seconds,
+    )
+
+
+def _impossible(found: emulated.Emulated) -> InputError:
+    """The error about a search without a possible run."""
+    causes = Counter(run.cause or "a choice outside of its range" for run in found.runs)
+    causes.update({f"`{entry.name}`": entry.runs for entry in found.invalid})
+    listed = ", ".join(f"{cause} ({count})" for cause, count in causes.most_common())
+    return InputError(
+        "everything-impossible", barrier="the end", count=causes.total(), constraint=listed, cure=LOOSEN
+    )
 
 
 def run_trajectories(

@@ -16,7 +16,7 @@ import typer
 
 from niwaki import guides, kernels, search
 from niwaki.errors import InputError
-from niwaki.methods import Ais, Guide, Improve, Method, Mh, ParticleGibbs, Pimh, Smc
+from niwaki.methods import Ais, Emulate, Guide, Improve, Method, Mh, ParticleGibbs, Pimh, Smc
 from niwaki.shell.references import ModelReference
 
 #: The methods of `niwaki grow`, by their names on the command line.
@@ -26,6 +26,7 @@ METHODS: dict[str, type[Method]] = {
     "ais": Ais,
     "particle-gibbs": ParticleGibbs,
     "pimh": Pimh,
+    "emulate": Emulate,
 }
 
 MethodName = Annotated[
@@ -34,7 +35,7 @@ MethodName = Annotated[
         "--method",
         metavar="NAME",
         help=f"Search method: {', '.join(METHODS)}. Default: improve; smc with --particles or a setting that improve "
-        "lacks.",
+        "lacks; emulate where all choices come before the scene, or a host function before every part.",
     ),
 ]
 Polish = Annotated[

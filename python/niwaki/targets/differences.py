@@ -117,6 +117,12 @@ class VolumeDifferences:
             out.append(SHADOW * along.ravel())
         return np.concatenate(out).astype(np.float64)
 
+    def blocks(self) -> NDArray[np.float64]:
+        """Return the cells of the target in each block, (x, y, z)."""
+        shape = tuple(len(cuts) for cuts in self.cuts)
+        blocks: NDArray[np.float64] = self.want[: int(np.prod(shape))].reshape(shape) / BLOCK
+        return blocks
+
     def __call__(self, shapes: Sequence[_engine.Shape], scene: Scene) -> NDArray[np.float64]:
         """Return the differences."""
         sums = self.sums(self.grid.mask(list(shapes))) - self.want

@@ -10,7 +10,7 @@ from typing import Any
 import niwaki as nw
 import numpy as np
 import pytest
-from niwaki import _engine
+from niwaki import _engine, fitting
 from niwaki.draw.scene import Scene
 from niwaki.errors import InputError
 from niwaki.fitting import Answer, Failure, FitLoop, Goal, Outcome, number
@@ -177,7 +177,13 @@ def test_sensitivity_names_the_parts_that_move(searched: FitLoop):
     # The knob is on top; a wider block changes at its sides.
     assert np.abs(knob).sum((0, 2)).argmax() >= knob.shape[1] - 4
     assert np.abs(width).sum((1, 2)).argmax() not in range(width.shape[0] // 3, 2 * width.shape[0] // 3)
-    assert searched.answers.picture().size[0] > 100
+    knobs = effects["knob"].blocks
+    # When a parameter grows, and when a switch goes on, the blocks gain.
+    assert width.sum() > 0 and knobs is not None and knobs.sum() > 0
+    assert effects["knob"].values == (False, True) and str(effects["knob"]) == "knob: False to True"
+    assert effects["width"].values[0] < searched.best.parameters["width"] < effects["width"].values[1]
+    picture = np.asarray(searched.answers.picture())
+    assert picture.shape[1] > 100 and (picture == fitting.effects.MORE).all(2).any()
 
 
 def test_goals_of_every_kind_have_differences():
