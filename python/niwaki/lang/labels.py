@@ -178,7 +178,7 @@ class Labels:
         -------
         The addresses with their steps, and whether they are all.
         """
-        numbers, found = sorted(set(iterations)), list[tuple[str, list[str]]]()
+        numbers, rows = sorted(set(iterations)), list[tuple[str, list[str]]]()
         waiting = deque([("", self._start(), list[str](), list[int]())])
         while waiting:
             prefix, place, above, entered = waiting.popleft()
@@ -194,12 +194,12 @@ class Labels:
                     step = self._step(place, name, kind == "end")
                     steps = [*(above[:-1] if step.is_joined else above), _text(step)]
                     if kind == "end":
-                        found.append((prefix + name, steps))
+                        rows.append((prefix + name, steps))
                     elif enters(steps, entered.count(site.inside)):
                         waiting.append((f"{prefix}{name}/", step.place, steps, [*entered, site.inside]))
-            if len(found) > limit or len(waiting) > limit:
-                return found[:limit], False
-        return found, True
+            if len(rows) > limit or len(waiting) > limit:
+                return rows[:limit], False
+        return rows, True
 
     def site(self, function: str, component: str) -> str:
         """Return the label of a choice by its function, with the loops around it (`wings/while#0`), in all its runs."""
@@ -288,9 +288,13 @@ def _path(steps: Sequence[str]) -> str:
     return text[:1].upper() + text[1:]
 
 
+#: Loops of words and built-ins that call a function for each item.
+_CALLERS = ("while", "map", "filter", "sorted", "min", "max", "mirrored", "arrayed")
+
+
 def is_anonymous(name: str) -> bool:
     """Return whether the name of a loop says nothing to a reader: `i`, `_`, `while`, `map`."""
-    return len(name) < 2 or name.startswith("_") or name in ("while", "map", "filter", "sorted", "min", "max")
+    return len(name) < 2 or name.startswith("_") or name in _CALLERS
 
 
 def _plain(component: str) -> str:

@@ -13,7 +13,7 @@ from typing import Any
 
 from niwaki import _engine
 from niwaki.errors import InputError
-from niwaki.lang.labels import Labels
+from niwaki.lang.labels import SEPARATOR, Labels
 
 #: The most addresses of a program that are compared with a label.
 LIMIT = 1000
@@ -34,17 +34,20 @@ def matching(labels: Labels, text: str, addresses: Iterable[str]) -> list[str]:
 
 
 def _matching(text: str, rows: Iterable[tuple[str, Sequence[str]]]) -> list[str]:
-    wanted = _steps(text)
+    steps_of_text = _steps(text)
     whole, ends, unnumbered = list[str](), list[str](), list[str]()
     for address, label in rows:
         steps = [_plain(step) for step in label]
-        if steps == wanted:
+        if steps == steps_of_text:
             whole.append(address)
-        elif wanted in (steps[-len(wanted) :], address.casefold().split("/")[-len(wanted) :]):
+        elif steps_of_text in (
+            steps[-len(steps_of_text) :],
+            address.casefold().split("/")[-len(steps_of_text) :],
+        ):
             ends.append(address)
-        elif len(steps) >= len(wanted) and all(
+        elif len(steps) >= len(steps_of_text) and all(
             step == name or ((numbered := _NUMBERED.fullmatch(step)) is not None and numbered[1] == name)
-            for step, name in zip(steps[-len(wanted) :], wanted, strict=True)
+            for step, name in zip(steps[-len(steps_of_text) :], steps_of_text, strict=True)
         ):
             unnumbered.append(address)
     return whole or ends or unnumbered
@@ -52,15 +55,18 @@ def _matching(text: str, rows: Iterable[tuple[str, Sequence[str]]]) -> list[str]
 
 def choices_named(labels: Labels, text: str) -> tuple[list[str], bool]:
     """List the addresses of a program's choices that a text names, and tell whether they are all."""
-    wanted = _steps(text)
+    steps_of_text = _steps(text)
     numbers = {int(number) for number in re.findall(r"\d{1,9}", text)}
     numbers |= {number - 1 for number in numbers if number > 0}
 
     def leads_there(steps: Sequence[str], _: int) -> bool:
-        return len(steps) <= len(wanted) and [_plain(step) for step in steps[:-1]] == wanted[: len(steps) - 1]
+        return (
+            len(steps) <= len(steps_of_text)
+            and [_plain(step) for step in steps[:-1]] == steps_of_text[: len(steps) - 1]
+        )
 
     rows, _ = labels.walk(numbers, leads_there, LIMIT)
-    whole = [address for address, steps in rows if [_plain(step) for step in steps] == wanted]
+    whole = [address for address, steps in rows if [_plain(step) for step in steps] == steps_of_text]
     if whole:
         return whole, True
     rows, is_all = labels.walk({0, 1} | numbers, _is_shallow, LIMIT)
@@ -102,7 +108,11 @@ def described(labels: Labels, addresses: Sequence[str]) -> str:
     texts = []
     for address in addresses[:MOST]:
         label = labels.label(address)
-        texts.append(f"`{address}`" if label.casefold() == address.casefold() else f"`{address}` ({label})")
+        texts.append(
+            f"`{address}`"
+            if label.replace(SEPARATOR, "/").casefold() == address.casefold()
+            else f"`{address}` ({label})"
+        )
     more = len(addresses) - MOST
     return ", ".join(texts) + (f" and {more} more" if more > 0 else "")
 
@@ -122,10 +132,10 @@ def resolved(values: Mapping[str, Any], labels: Labels, name: str) -> dict[str, 
     for text, value in values.items():
         address = text
         if labels.tables and not labels.is_possible(text):
-            found, is_all = choices_named(labels, text)
-            if len(found) > 1 or (found and not is_all):
-                raise ambiguous(labels, text, found, name)
-            address = found[0] if found else text
+            named, is_all = choices_named(labels, text)
+            if len(named) > 1 or (named and not is_all):
+                raise ambiguous(labels, text, named, name)
+            address = named[0] if named else text
         if address in by_address and by_address[address] != value:
             raise held_twice(address, (texts[address], by_address[address]), (text, value))
         by_address[address], texts[address] = value, text

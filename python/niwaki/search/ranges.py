@@ -42,18 +42,18 @@ def translated_run(search: SearchLike, seed: int) -> Iterator[None]:
 def _explain(error: InputError, search: SearchLike) -> None:
     """Name the value and the range in an error about a held choice."""
     constraint = error.values.get("constraint", "")
-    found = _OUTSIDE.search(constraint)
-    if found is None or found[2] not in search.held:
+    cause = _OUTSIDE.search(constraint)
+    if cause is None or cause[2] not in search.held:
         return
-    value = search.held[found[2]]
-    ranges = _ranges(search, found[2])
+    value = search.held[cause[2]]
+    ranges = _ranges(search, cause[2])
     if not ranges:
         return
     range_text = ranges[0] if len(ranges) == 1 else f"{ranges[0]} or, in another run, {ranges[1]}"
     error.values["constraint"] = constraint.replace(
-        found[0], f"{found[1]}: its value {value!r} is not {range_text}"
+        cause[0], f"{cause[1]}: its value {value!r} is not {range_text}"
     )
-    error.values["cure"] = f"hold `{found[2]}` at {range_text}"
+    error.values["cure"] = f"hold `{cause[2]}` at {range_text}"
 
 
 def _ranges(search: SearchLike, address: str) -> list[str]:
@@ -96,16 +96,16 @@ class _Met(BaseException):
 class _Listener(PlainRun):
     """A plain run up to one choice, of which it keeps the distribution."""
 
-    def __init__(self, seed: int, choices: Mapping[str, Any], wanted: str) -> None:
+    def __init__(self, seed: int, choices: Mapping[str, Any], goal: str) -> None:
         super().__init__(seed, choices)
-        self.wanted = wanted
+        self.goal = goal
         self.distribution: Distribution | None = None
 
     def sample(self, dist: Any, words: Any = None) -> Any:
         """Stop at the choice, or make another one."""
         if len(self.choices_made) > CHOICES:
             raise _Met
-        if "/".join([*self.path, self.pending or "sample"]) != self.wanted:
+        if "/".join([*self.path, self.pending or "sample"]) != self.goal:
             return super().sample(dist, words)
         self.distribution = dist if isinstance(dist, Distribution) else None
         raise _Met

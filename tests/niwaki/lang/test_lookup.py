@@ -1,9 +1,11 @@
 """Addresses by labels, and what a message says where a text is neither."""
 
+import re
+
 import niwaki as nw
 import pytest
 from niwaki import gallery
-from niwaki.errors import InputError
+from niwaki.errors import InputError, ModelError, ModelFault
 from niwaki.lang import lookup
 
 
@@ -45,10 +47,10 @@ def test_every_label_of_a_run_is_a_name_of_its_choice(name):
     for address in nw.run(model, seed=2).best.choices:
         assert model.labels.is_possible(address)
         label = model.labels.label(address)
-        found = lookup.choices_named(model.labels, label)[0]
+        named = lookup.choices_named(model.labels, label)[0]
         # Only choices of which a run has one have a label in common.
-        assert address in found and {model.labels.label(other) for other in found} == {label}
-        if len(found) == 1:
+        assert address in named and {model.labels.label(other) for other in named} == {label}
+        if len(named) == 1:
             single += 1
             assert lookup.resolved({label: 1.0}, model.labels, name) == {address: 1.0}
     assert single > 2
@@ -119,7 +121,7 @@ def test_a_deep_call_is_found_by_its_whole_label_and_a_list_of_a_recursion_ends(
     assert bush.labels.label(path) == " › ".join(["Bush 1", *deep[1:], "length"])
     assert lookup.choices_named(bush.labels, " > ".join([*deep, "Length"])) == ([path], True)
     assert len(lookup.choices_named(bush.labels, "length")[0]) == 1
-    assert len(lookup.choices_named(bush.labels, "bush > length")[0]) == 6
+    assert len(lookup.choices_named(bush.labels, "bush > length")[0]) == 3
 
 
 @pytest.mark.parametrize(
@@ -141,3 +143,41 @@ def test_a_value_out_of_range_is_refused_with_the_range(dist, value, range_text)
         nw.run(tower, nw.smc(10), hold={address: value})
     text = str(caught.value)
     assert f"its value {value!r} is not {range_text}" in text and f"hold `{address}` at {range_text}" in text
+
+
+def test_groups_take_labels_and_their_calls_are_numbered():
+    @nw.model
+    def table():
+        nw.mirrored("x", roof, "flat", nw.uniform(1.0, 2.0), label="half")
+        nw.arrayed([(0, 0, 0), (0, 1, 0)], roof, "flat", 1.0)
+        nw.place((0, 5, 0), roof, "flat", 1.0, label="top")
+
+    sample = nw.run(table, seed=1).best
+    labels = [sample.label(address) for address in sample.choices]
+    assert labels == [
+        "Wide",
+        "Half 1 › high",
+        "Half 2 › high",
+        "Roof 1 › high",
+        "Roof 2 › high",
+        "Top › high",
+    ]
+    assert nw.Search(table, hold={"Half 2 › high": 0.5}).held == {"mirrored[1]/roof/high": 0.5}
+    assert nw.run_python(table, choices=sample.choices).choices == sample.choices
+
+
+def test_words_in_place_of_a_function_or_a_list_are_refused_with_what_to_write():
+    @nw.model
+    def pair():
+        nw.place((0, 1, 0), nw.mirrored, "x", roof, "flat", 1.0)
+
+    @nw.model
+    def kind():
+        return nw.choose("gable", "hip")
+
+    with pytest.raises(ModelError, match=re.escape('`lambda: nw.mirrored("x", roof, "flat", 1.0)`')):
+        pair.program()
+    with pytest.raises(ModelError, match=re.escape('`choose(["gable", "hip"])`')):
+        kind.program()
+    with pytest.raises(ModelFault, match=re.escape("`choose(['gable', 'hip'])`")):
+        nw.run_python(kind, seed=1)
