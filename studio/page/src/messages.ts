@@ -1,6 +1,9 @@
-// Written by `make studio-page` from python/niwaki/studio/messages: change these files instead.
+// Written by `make studio-page` from python/niwaki/studio/messages, and python/niwaki/draw/palette.py: change these files instead.
 
 export const PROTOCOL = 1;
+
+/** The colour of obstacles in each theme. */
+export const OBSTACLE = { light: 0xb4564a, dark: 0xd9837a };
 
 /** Begin a connection; the answer is the whole state. */
 export interface Hello {
