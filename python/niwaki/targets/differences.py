@@ -228,9 +228,11 @@ def _lost(call: SketchCall) -> float:
     """The root of twice the score that the empty scene loses against a perfect one, nats: its error in deviations."""
     sketch = _engine.Sketch([call.spec])
     similarity = sketch.similarity()
-    sigma = float(call.arguments["sigma"])
+    deviation = float(call.arguments["sigma"])
+    if call.arguments.get("weight") == "balanced":
+        deviation *= _engine.BALANCED_DEVIATIONS
     wrong = 1.0 if similarity is None else 1.0 - similarity
-    return max(wrong / sigma, 1.0)
+    return max(wrong / deviation, 1.0)
 
 
 Make = Callable[[SketchCall, View | None], Differences]

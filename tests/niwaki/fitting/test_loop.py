@@ -220,6 +220,18 @@ def test_a_scene_that_matches_has_no_differences(goal: Goal):
     assert exact.covered == 1.0
 
 
+def test_differences_are_in_nats_of_the_score_of_balanced_cells():
+    empty = Scene([])
+    plain, balanced = (
+        Goal.of(nw.match_volume(target(HIDDEN), voxel=0.06, weight=weight))
+        for weight in ("cells", "balanced")
+    )
+    # By the deviation of each the whole target is missing: its share of all cells, and all of it.
+    share = 1.0 - _engine.Sketch(plain.score.specs).similarity()
+    ratio = (1.0 / (5 * 0.02)) / (share / 0.02)
+    assert balanced.measure(empty).features == pytest.approx(ratio * plain.measure(empty).features, rel=1e-6)
+
+
 def test_numbers_are_scored_by_their_tolerance():
     goal = (
         number("volume", 2.0, 0.1)
