@@ -51,6 +51,7 @@ from .result.sample import log_density as log_density
 from .search import Checkpoint as Checkpoint
 from .search import Parameter as Parameter
 from .search import Search as Search
+from .search import archive as archive
 from .search import grow as grow
 from .search import run as run
 from .targets.camera import Camera as Camera

@@ -118,6 +118,12 @@ class Labels:
         """Return the last step without the number of an iteration: the same for all parts of a loop."""
         return self._steps(address)[-1].text
 
+    def place(self, place: str) -> str:
+        """Return the label of a place, an address without numbers of iterations; with "/" at its end, of calls."""
+        address = place.removesuffix("/").replace("[]", "[0]")
+        label = _path([step.text for step in self._steps(address)])
+        return f"{label}, number" if place.endswith("/") else label
+
     def tree(self, addresses: Iterable[str]) -> list[tuple[int, str, str, bool]]:
         """Return the steps of addresses and of the calls around them, each once, those around before those inside.
 

@@ -356,6 +356,11 @@ class ImproveInfo(Info):
         The population that lived, and then each round.
     searches : int
         The number of searches for results that differ.
+    kinds : tuple of dict
+        For each of several results what tells it apart: a value for each place. A place is an address without the
+        numbers of iterations; a place that ends in "/" is that of a call, and its value the number of calls.
+    niches : int
+        The number of kinds that the search for several results has met and keeps.
     losses : Losses
         The particles that became impossible in the population that lived.
     seconds : tuple of float
@@ -365,6 +370,8 @@ class ImproveInfo(Info):
     attempts: tuple[Attempt, ...] = ()
     rounds: tuple[Round, ...] = ()
     searches: int = 1
+    kinds: tuple[dict[str, str], ...] = ()
+    niches: int = 0
     losses: Losses = Losses()  # noqa: RUF009
     seconds: tuple[float, ...] = field(default=(), compare=False)
 
@@ -373,6 +380,7 @@ class ImproveInfo(Info):
         object.__setattr__(self, "losses", _losses(self.losses))
         object.__setattr__(self, "attempts", tuple(Attempt(*fields) for fields in self.attempts))
         object.__setattr__(self, "rounds", tuple(Round(*fields) for fields in self.rounds))
+        object.__setattr__(self, "kinds", tuple(dict(kind) for kind in self.kinds))
 
     def __str__(self) -> str:
         """The steps of the search, with the seconds and the best log score after them."""

@@ -1,6 +1,8 @@
 """Searches as values, and how the engine runs them.
 
 entry       `run` and `grow`, which create a search and run it
+archives    `archive`, the best of every kind as a table and a sheet
+kinds       what tells results apart, in words for people
 request     `Search`: all that decides a result, as JSON, with a hash
 data        values as plain data, and back
 schema      the form of a search as JSON

@@ -1,3 +1,6 @@
+from .archives import Archive as Archive
+from .archives import archive as archive
+from .kinds import named as named
 from .checkpoint import Checkpoint as Checkpoint
 from .checks import fresh as fresh
 from .drag import Drag as Drag

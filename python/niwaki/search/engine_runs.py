@@ -35,6 +35,7 @@ from niwaki.result.search_like import SearchLike
 from niwaki.search import emulated
 from niwaki.search.checks import check_polish, check_seed, check_threads
 from niwaki.search.keeper import Stage
+from niwaki.search.kinds import check_number, with_addresses
 from niwaki.search.ranges import translated_run
 from niwaki.search.warnings import SearchWarning, check_reach
 
@@ -75,7 +76,7 @@ def run_once(
         return fit_normals(search, search.method, seed, threads, watch, start)
     if isinstance(search.method, Emulate):
         return run_emulator(search, search.method, seed, watch)
-    method, attached = engine_form(search.method)
+    method, attached = engine_form(with_addresses(search))
     counted, clock = search.task.uncounted(), Clock()
     with translated_run(search, seed):
         runs, interrupted, counters = counted.search(
@@ -89,7 +90,9 @@ def run_once(
         )
     info = INFOS.get(search.method.NAME, Info)(**counters)
     diverse = getattr(search.method, "diverse", None)
-    if diverse is not None:
+    if isinstance(info, ImproveInfo):
+        check_number(info, len(runs), diverse, interrupted)
+    elif diverse is not None:
         runs = distinct(runs, diverse, info)
     seconds = clock.read()
     if stage is not None:
@@ -120,20 +123,17 @@ class Clock:
         return time.perf_counter() - self._wall, time.process_time() - self._cpu
 
 
-def distinct(runs: list[_engine.Run], number: int, info: Info) -> list[_engine.Run]:
+def distinct(runs: list[_engine.Run], number: int, info: PopulationInfo) -> list[_engine.Run]:
     """The best runs that differ from one another; runs that did not end or are impossible are left out."""
     ended = [run for run in runs if run.has_ended and run.cause is None]
     ranked = sorted(ended, key=lambda run: -run.log_score)
     chosen = [ranked[place] for place in _engine.different(ranked, number)]
     if len(chosen) < number:
-        if isinstance(info, PopulationInfo):
-            count, cure = len(info.plan), "give more `populations`"
-            where = f"{count} population{'' if count == 1 else 's'}"
-        else:
-            count = info.searches if isinstance(info, ImproveInfo) else 1
-            cure = "give another `seed`, or accept that the model has few results"
-            where = f"{count} search{'' if count == 1 else 'es'}"
-        warn(f"only {len(chosen)} of {number} results in {where} differ; {cure}", SearchWarning)
+        populations = f"{len(info.plan)} population{'' if len(info.plan) == 1 else 's'}"
+        warn(
+            f"only {len(chosen)} of {number} results in {populations} differ; give more `populations`",
+            SearchWarning,
+        )
     return chosen
 
 

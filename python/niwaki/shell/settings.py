@@ -69,6 +69,7 @@ _METAVARS = {
     **dict.fromkeys(("particles", "powers", "anneal"), "LIST"),
     **dict.fromkeys(("kernel", "rejuvenate"), "KERNEL"),
     "seconds": "SECONDS",
+    "by": "kind|look|CHOICES|QUERY",
 }
 #: Types that the command line reads itself; any other setting is a text, which `_read` reads.
 _PLAIN = (int, float, str, bool)
@@ -326,6 +327,9 @@ def _read(name: str, value: Any) -> Any:
     if name == "particles":
         sizes = numbers(name, value, int)
         return sizes[0] if len(sizes) == 1 else sizes
+    if name == "by":
+        names = tuple(part.strip() for part in value.split(","))
+        return names if len(names) > 1 else names[0]
     if name == "powers":
         rungs = numbers(name, value, float)
         return rungs if len(rungs) > 1 else numbers(name, value, int)[0]
