@@ -295,7 +295,7 @@ format: $(STAMPS)/lint
 # uv writes locks that hold on Python 3.11 and later, with hashes and without the address of an index.
 locks: $(STAMPS)/venv
 	$(PIP) install uv
-	for extra in core build studio test browser lint docs bench bench-fit bench-hmc cluster guides-oracle; do \
+	for extra in core build studio mcp test browser lint docs bench bench-fit bench-hmc cluster guides-oracle; do \
 	  $(VENV)/bin/uv pip compile pyproject.toml $$([ $$extra = core ] || echo --extra $$extra -c requirements/core.txt) \
 	    --upgrade --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --no-annotate \
 	    --quiet -o requirements/$$extra.txt; \

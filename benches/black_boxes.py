@@ -3,10 +3,12 @@
     make bench-fit                                                  # five seeds, 1,000 evaluations: many hours
     SEEDS=1 BUDGET=300 make bench-fit                               # a look
     GENERATORS=table,gear SEARCHES=fit,cma SEEDS=2 make bench-fit   # some
+    WORKERS=1 make bench-fit                                        # one worker process; by default there are two
 
 Each search of a problem is a line of out/fit/records.jsonl (OUT names another folder); what is there is not done
 again. The eight old generators have two targets each, the eight fresh ones have one. Leaves tables.md in the folder.
-Two worker processes; the libraries of matrices are limited to one thread. Nevergrad, pymoo and openscad-evaluator need
+The tables have all records of the folder: what was done with a larger budget counts for fewer evaluations, too. The
+libraries of matrices are limited to one thread. Nevergrad, pymoo and openscad-evaluator need
 packages under the GPL or the LGPL, and are in no lock: what is not installed is left out, with a line.
 """
 
@@ -25,8 +27,6 @@ from typing import Any
 from fit import ours, peers, table
 from fit.problems import GENERATORS, MARKS, Problem
 from lines import Lines
-
-WORKERS = 2
 
 Job = tuple[str, str, int, int, int]
 
@@ -85,7 +85,7 @@ def main() -> int:
         for row in records.rows
     }
     missing = [job for job in jobs(searches, generators, seeds, budget) if job not in done]
-    with get_context("spawn").Pool(WORKERS) as pool:
+    with get_context("spawn").Pool(int(os.environ.get("WORKERS") or 2)) as pool:
         for number, rows in enumerate(pool.imap_unordered(searched, missing)):
             for row in rows:
                 records.add(row)
@@ -95,13 +95,7 @@ def main() -> int:
             )
     parts: list[str] = []
     for title, fresh in (("Old generators", False), ("Fresh generators", True)):
-        rows = [
-            row
-            for row in records.rows
-            if row["budget"] == budget
-            and row["seed"] < seeds
-            and GENERATORS[row["generator"]].is_fresh == fresh
-        ]
+        rows = [row for row in table.distinct(records.rows) if GENERATORS[row["generator"]].is_fresh == fresh]
         parts += [f"## {title}", "", *table.by_search(rows), ""]
         for mark in MARKS:
             if any(row["evaluations"] == mark for row in rows):

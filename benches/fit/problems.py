@@ -80,11 +80,15 @@ class Judged:
 
 @dataclass
 class Problem:
-    """A generator with hidden parameters from a seed. `evaluate` is what a search sees; equal points count once."""
+    """A generator with hidden parameters from a seed. `evaluate` is what a search sees; equal points count once.
+
+    The vertices of a rough target are moved by normal draws of this standard deviation: no parameters reach it.
+    """
 
     generator: Generator
     number: int
     budget: int
+    rough: float = 0.0
     count: int = 0
     requests: int = 0
     best: float = -math.inf
@@ -96,7 +100,7 @@ class Problem:
         self.hidden = drawn(self.generator.parameters, random)
         parts = self.generator.parts(self.hidden)
         self.solid = union(parts)
-        self.goal = _goal(self.generator.goal, parts, self.solid)
+        self.goal = _goal(self.generator.goal, parts, self.solid, self.rough, random)
         self.truth = self.score(parts)
         self._cache: dict[tuple[Any, ...], float] = {}
         self._inside = 0.0
@@ -183,9 +187,11 @@ class Problem:
         )
 
 
-def _goal(goal: str, parts: list[Part], solid: Any) -> nw.Score:
+def _goal(goal: str, parts: list[Part], solid: Any, rough: float, random: np.random.Generator) -> nw.Score:
     mesh = solid.to_mesh()
     vertices = np.asarray(mesh.vert_properties[:, :3], float)
+    if rough:
+        vertices = vertices + random.normal(0.0, rough, vertices.shape)
     target = nw.Target(vertices, np.asarray(mesh.tri_verts, np.int64), name="hidden")
     if goal == "volume":
         voxel = nw.match_volume(target).asks[0].arguments["voxel"]

@@ -11,11 +11,20 @@ from .problems import MARKS
 Row = dict[str, Any]
 
 
+def distinct(rows: Iterable[Row]) -> list[Row]:
+    """Leave out a search that was done again with a larger budget, as far as both have been judged."""
+    names = ("search", "generator", "target", "seed", "evaluations")
+    out: dict[tuple[Any, ...], Row] = {}
+    for row in sorted(rows, key=lambda row: int(row["budget"])):
+        out.setdefault(tuple(row[name] for name in names), row)
+    return list(out.values())
+
+
 def by_search(rows: Sequence[Row]) -> list[str]:
     """A line for each search: medians of all problems, and how many are solved in its median seed."""
     lines = [
-        "| search | evaluations | score | IoU | solved | switches | error | overhead, ms |",
-        "| --- | --- | --- | --- | --- | --- | --- | --- |",
+        "| search | evaluations | seeds | score | IoU | solved | switches | error | overhead, ms |",
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- |",
     ]
     for name in dict.fromkeys(row["search"] for row in rows):
         for mark in MARKS:
@@ -28,8 +37,9 @@ def by_search(rows: Sequence[Row]) -> list[str]:
                 [sum(row["solved"] for row in rows_here if row["seed"] == seed) for seed in seeds]
             )
             lines.append(
-                f"| {name} | {mark} | {_middle(rows_here, 'score'):.2f} | {_middle(rows_here, 'iou'):.2f} | "
-                f"{solved:g} of {problems} | {_mean(rows_here, 'switches')} | {_mean(rows_here, 'error')} | "
+                f"| {name} | {mark} | {len(seeds)} | {_middle(rows_here, 'score'):.2f} | "
+                f"{_middle(rows_here, 'iou'):.2f} | {solved:g} of {problems} | "
+                f"{_mean(rows_here, 'switches')} | {_mean(rows_here, 'error')} | "
                 f"{_middle(rows_here, 'overhead'):.1f} |"
             )
     return lines

@@ -5,9 +5,9 @@ use crate::solids::primitive;
 use arbitrary::Unstructured;
 use niwaki_geom::view::{Camera, Lens};
 use niwaki_geom::{
-    Aabb, Drawing, Look, Page, Picture, Place, Primitive, Rule, Shape, Sketch, SketchSpec, Sketches, Target,
-    TargetPicture, Texture, Vec3, avoid, fill_drawing, floor, match_drawing, match_image, match_shadow,
-    match_volume, no_overshoot, no_self_intersection, vec3,
+    Aabb, CellWeight, Drawing, Look, Page, Picture, Place, Primitive, Rule, Shape, Sketch, SketchSpec,
+    Sketches, Target, TargetPicture, Texture, Vec3, avoid, fill_drawing, floor, match_drawing, match_image,
+    match_shadow, match_volume, match_volume_by, no_overshoot, no_self_intersection, vec3,
 };
 use std::sync::{Arc, OnceLock};
 
@@ -64,9 +64,10 @@ fn specs() -> &'static [Arc<dyn SketchSpec>] {
             match_shadow(parallel, 0.02).expect("a sketch"),
             match_drawing(drawing, 0.02).expect("a sketch"),
             fill_drawing(Texture { page, share: 0.5, sigma: 0.01 }).expect("a sketch"),
-            avoid(target),
+            avoid(target.clone()),
             floor(-1.0).expect("a sketch"),
             no_overshoot(domain, 0.3).expect("a sketch"),
+            match_volume_by(target, 0.02, CellWeight::Balanced).expect("a sketch"),
         ]
     })
 }

@@ -17,7 +17,6 @@ from .errors import ModelFault as ModelFault
 from .errors import NiwakiError as NiwakiError
 from .fitting import Failure as Failure
 from .fitting import FitLoop as FitLoop
-from .fitting import Parameter as Parameter
 from .fitting import command as command
 from .fitting import fit as fit
 from .fitting import number as number
@@ -50,7 +49,9 @@ from .result import Sample as Sample
 from .result import diagnostics as diagnostics
 from .result.sample import log_density as log_density
 from .search import Checkpoint as Checkpoint
+from .search import Parameter as Parameter
 from .search import Search as Search
+from .search import archive as archive
 from .search import grow as grow
 from .search import run as run
 from .targets.camera import Camera as Camera

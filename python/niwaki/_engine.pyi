@@ -80,6 +80,8 @@ FAMILIES: dict[str, tuple[str, str, list[tuple[str, str, str | None, str]], str,
 #: The words for shapes: what each makes, and its parameters in order (name, type, default or None, what it is).
 SHAPES: dict[str, tuple[str, list[tuple[str, str, str | None, str]]]]
 SKETCHES: dict[str, tuple[str, str] | None]
+#: The standard deviation of the similarity of `match_volume(weight="balanced")`, in its `sigma`.
+BALANCED_DEVIATIONS: float
 
 _Triple = Sequence[float]
 _Rows = Sequence[Sequence[float]]
@@ -539,6 +541,10 @@ class Choice:
     def words(self) -> list[str] | None: ...
     @property
     def log_density(self) -> float: ...
+    @property
+    def barriers(self) -> int: ...
+    @property
+    def distribution(self) -> Any: ...
 
 @final
 class Site:
@@ -582,6 +588,8 @@ class Trace:
     def parts(self) -> list[tuple[str, list[Shape]]]: ...
     @property
     def queries(self) -> dict[Any, Any]: ...
+    @property
+    def hosted(self) -> int: ...
 
 @final
 class Opaque: ...

@@ -12,7 +12,7 @@ import pytest
 import trimesh
 from niwaki import _engine
 from niwaki.shell import run_files
-from studio_page import at_rest, camera, choose, click_part, grow, nameless, timed, until, visible
+from studio_page import at_rest, camera, choose, click_part, grow, nameless, timed, unstar, until, visible
 
 #: The width of the focus's outline, and the name of the control for a screen reader.
 FOCUS = """() => {
@@ -86,9 +86,7 @@ def test_a_gallery_of_eight_differs_and_stars_keep_their_order(open_page, served
     choose(page, "spaceship", 3, seed=5)
     grow(page)
     assert [result["key"] for result in page.evaluate("window.__studio.view.results")][:2] == starred
-    for _ in starred:
-        page.locator(".card .star[aria-pressed=true]").first.click()
-        page.wait_for_timeout(100)
+    unstar(page)
 
 
 def test_pinned_choices_are_equal_after_searches(open_page, served):
@@ -229,19 +227,23 @@ def test_a_save_by_rename_twice_at_once_is_one_reload_with_the_same_seed_and_sco
     at_rest(page)
     steps = page.evaluate("window.__studio.view.undo")
     first = page.evaluate("window.__studio.view.results[0]")
+    others = [pile.with_suffix(f".{number}") for number in range(2)]
+    for other in others:
+        other.write_text(good + "\n")
     try:
-        for _ in range(2):
-            other = pile.with_suffix(".tmp")
-            other.write_text(good + "\n")
+        for other in others:
             other.rename(pile)
         until(page, f"window.__studio.view.undo == {steps + 1}")
-        page.wait_for_timeout(500)
-        assert page.evaluate("window.__studio.view.undo") == steps + 1
         again = page.evaluate("window.__studio.view.results[0]")
         assert (again["log_score"], again["seed"]) == (first["log_score"], first["seed"])
+        # Reloads are done one after the other, so that a second one would have come before that of the next change.
+        pile.write_text(good.replace("3.0", "4.0"))
+        until(page, "window.__studio.view.model.parameters[0].default == 4")
+        until(page, f"window.__studio.view.picked.run > {again['key']['run']}")
+        assert page.evaluate("window.__studio.view.undo") == steps + 2
     finally:
         pile.write_text(good)
-        page.wait_for_timeout(500)
+    until(page, "window.__studio.view.model.parameters[0].default == 3")
 
 
 def test_a_large_mesh_is_shown_thinned_and_parts_are_still_picked_at_once(open_page, served, tmp_path):
@@ -398,7 +400,8 @@ def test_typed_text_stays_while_a_search_reports_its_progress(open_page, served)
     page.keyboard.press("Control+a")
     for digit in "4321":
         page.keyboard.type(digit)
-        page.wait_for_timeout(150)
+        seconds = page.evaluate("window.__studio.view.searching.seconds")
+        until(page, f"window.__studio.view.searching?.seconds > {seconds}")
     assert page.evaluate("window.__studio.view.searching") is not None
     assert seed.input_value() == "4321"
     seed.blur()

@@ -74,8 +74,9 @@ def test_a_branch_goes_to_the_pointer_and_the_rest_is_grown_again(tree):
         until(page, "window.__studio.shown.role == 'moving'")
     for step in range(1, 15):
         to = (x + 9 + 7 * step, y - 5 - 4 * step)
+        moves = page.evaluate("window.__studio.shown.moves")
         page.mouse.move(*to)
-        page.wait_for_timeout(150)
+        until(page, f"window.__studio.shown.moves > {moves} && window.__studio.isStill")
         frames.append(frame(page, to))
     drag = page.evaluate("window.__studio.drag")
     assert drag["left"] <= 0.01 or drag["reason"]
@@ -86,7 +87,7 @@ def test_a_branch_goes_to_the_pointer_and_the_rest_is_grown_again(tree):
         until(page, f"window.__studio.view.picked.run >= {picked['run']} + 2")
     page.keyboard.up("Shift")
     at_rest(page)
-    page.wait_for_timeout(400)
+    until(page, "window.__studio.isStill")
     frames += [frame(page)] * 16
     assert (np.array(page.evaluate("window.__studio.camera")) == before).all()
     OUT.mkdir(parents=True, exist_ok=True)
@@ -126,22 +127,18 @@ def test_a_change_of_the_file_is_offered_and_written_when_accepted(open_page, se
     click_part(page, address)
     until(page, "window.__studio.selection.part")
     offer = page.locator(".offer").first
-    # The search may find the place without a change of the file; a longer way needs one.
-    for way in (30, 60, 90):
-        page.mouse.move(box["x"] + x, box["y"] + y)
-        page.mouse.down()
-        page.mouse.move(box["x"] + x, box["y"] + y - way, steps=4)
-        until(page, "window.__studio.shown.role == 'moving'")
-        page.mouse.up()
-        at_rest(page)
-        if offer.count() > 0:
-            break
-        x, y = page.evaluate("address => window.__studio.pointOf(address)", address)
+    # No choice moves a storey up; the height of the pile does, which is a number of the file.
+    page.mouse.move(box["x"] + x, box["y"] + y)
+    page.mouse.down()
+    page.mouse.move(box["x"] + x, box["y"] + y - 60, steps=4)
+    until(page, "window.__studio.shown.role == 'moving'")
+    page.mouse.up()
+    at_rest(page)
     offer.locator("summary").click()
     assert "height: float = 3.0" in offer.inner_text()
     assert pile.read_text() == text
     picture(page, "offer")
     offer.get_by_role("button", name="Write", exact=True).click()
-    page.wait_for_timeout(1500)
+    until(page, "window.__studio.view.model.parameters[0].default > 3")
     assert "height: float = 3." in pile.read_text() and pile.read_text() != text
     pile.write_text(text)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 import trimesh
-from studio_page import at_rest, camera, choose, click_part, grow, picture, until, visible
+from studio_page import at_rest, camera, choose, click_part, grow, picture, settled, until, visible
 from studio_process import serving
 
 #: Sizes of windows, from a small laptop to a large screen.
@@ -69,6 +69,7 @@ def test_a_slider_at_a_whole_number_stays_a_slider_of_real_numbers(open_page, se
 def test_a_closed_outline_means_its_inside_and_is_shown_as_it_is_scored(open_page, served):
     page = open_page(served)
     choose(page, "building", 1)
+    settled(page)
     page.keyboard.press("d")
     box = page.locator("main.stage").bounding_box()
     house = [(0.36, 0.7), (0.36, 0.4), (0.5, 0.22), (0.64, 0.4), (0.64, 0.7), (0.38, 0.705)]
@@ -86,8 +87,7 @@ def test_a_closed_outline_means_its_inside_and_is_shown_as_it_is_scored(open_pag
     until(page, f"window.__studio.mask.share < {0.7 * filled}")
     fill.check()
     until(page, f"window.__studio.mask.share == {filled}")
-    page.get_by_role("button", name="Grow into it").click()
-    until(page, "!window.__studio.view.searching && window.__studio.view.results.length == 1")
+    grow(page, "Grow into it")
     assert page.evaluate("window.__studio.view.results[0].covered") > 0.8
 
 
@@ -135,9 +135,14 @@ def test_nothing_is_cut_off_in_small_and_large_windows_with_classic_scrollbars(b
     at_rest(page)
     for wide, high in SIZES:
         page.set_viewport_size({"width": wide, "height": high})
-        until(page, f"document.querySelector('main.stage canvas').clientWidth < {wide}")
-        page.wait_for_timeout(100)
+        until(page, f"innerWidth == {wide} && innerHeight == {high}")
+        # The page has drawn the scene in its new size.
+        until(
+            page,
+            "(canvas => canvas.width == canvas.clientWidth)(document.querySelector('main.stage canvas'))",
+        )
         page.keyboard.press("f")
+        until(page, "window.__studio.isStill")
         strip = page.locator(".gallery").bounding_box()
         # The scrollbar of the strip lies below its cards.
         room = page.evaluate("document.querySelector('.gallery').clientHeight")

@@ -18,6 +18,7 @@ from studio_page import (
     grow,
     nameless,
     picture,
+    settled,
     timed,
     until,
     visible,
@@ -31,7 +32,7 @@ def test_fill(open_page, served):
         page.select_option("select[aria-label=Model]", "spaceship")
         until(page, "window.__studio.view.model.reference == 'spaceship'")
     choose(page, "spaceship", 8)
-    page.wait_for_timeout(500)
+    settled(page)
     before = camera(page)
     with timed("first shape"):
         page.locator("button.primary").click()
@@ -136,7 +137,7 @@ def test_write(open_page, served, pile):
 def test_draw(open_page, served):
     page = open_page(served)
     choose(page, "building", 1)
-    page.wait_for_timeout(300)
+    settled(page)
     page.keyboard.press("d")
     box = page.locator("main.stage").bounding_box()
     x, y = box["x"] + 0.5 * box["width"], box["y"]
@@ -148,8 +149,7 @@ def test_draw(open_page, served):
         until(page, "window.__studio.view.ask.sketch?.strokes.length == 1")
     before = camera(page)
     picture(page, "draw")
-    page.get_by_role("button", name="Grow into it").click()
-    until(page, "!window.__studio.view.searching && window.__studio.view.results.length == 1")
+    grow(page, "Grow into it")
     assert page.evaluate("window.__studio.view.results[0].similarity") >= 0.8
     at_rest(page)
     assert (camera(page) == before).all()
@@ -211,8 +211,8 @@ def test_no_request_leaves_the_machine_and_the_security_policy_holds(browser, se
     page.on("request", lambda request: urls.append(request.url))
     page.on("console", lambda message: messages.append(message.text))
     page.goto(f"{served.url}/open?token={served.link()}")
-    page.locator("button.primary").wait_for()
-    page.wait_for_timeout(1000)
+    # The pictures of models or results are the last that a page loads.
+    page.locator("canvas[data-drawn]").first.wait_for()
     assert urls and all(url.startswith((served.url, "data:", "blob:")) for url in urls)
     assert not [text for text in messages if "Content Security Policy" in text]
     context.close()

@@ -8,7 +8,7 @@ import numpy as np
 import trimesh
 from niwaki import _engine
 from niwaki.shell import run_files
-from studio_page import at_rest, camera, choose, grow, picture, timed, until
+from studio_page import at_rest, camera, choose, grow, picture, settled, timed, unstar, until
 
 
 def add(page, name):
@@ -73,15 +73,14 @@ def test_a_mesh_becomes_an_obstacle(open_page, served, tmp_path):
 def test_a_shadow_is_drawn_and_grown_into(open_page, served):
     page = open_page(served)
     choose(page, "building", 1)
-    page.wait_for_timeout(300)
+    settled(page)
     page.keyboard.press("d")
     page.get_by_label("Meaning of the strokes").select_option("shadow")
     box = page.locator("main.stage").bounding_box()
     drag(page, box["x"] + 0.35 * box["width"], box["y"] + 0.66 * box["height"], 190, -30)
     until(page, "window.__studio.view.ask.sketch?.kind == 'shadow'")
     until(page, "window.__studio.objects.includes('light')")
-    page.get_by_role("button", name="Grow into it").click()
-    until(page, "!window.__studio.view.searching && window.__studio.view.results.length == 1")
+    grow(page, "Grow into it")
     at_rest(page)
     picture(page, "shadow")
     page.get_by_role("button", name="Move the light").click()
@@ -124,21 +123,58 @@ def test_the_difference_to_a_target_has_the_cells_that_the_engine_counts(open_pa
         counts = page.evaluate("window.__studio.counts")
         assert (counts["covered"], counts["missing"], counts["outside"]) == engine_fit(served, key)
         page.locator("[role=option]").nth(1).click()
-        until(page, "window.__studio.differenceOf == '1'")
+        until(page, "window.__studio.view.picked.number == 1")
     page.keyboard.press("x")
     until(page, "!document.querySelector('.legend')")
+
+
+def test_a_late_difference_of_another_result_is_not_shown(open_page, served):
+    page = open_page(served)
+    choose(page, "spaceship", 2)
+    grow(page)
+    at_rest(page)
+    delayed, sockets = [], []
+
+    def differences_wait(socket):
+        studio = socket.connect_to_server()
+        is_first = lambda message: b'"kind":"difference"' in message and not delayed  # noqa: E731
+        studio.on_message(
+            lambda message: (
+                delayed.append(message)
+                if isinstance(message, bytes) and is_first(message)
+                else socket.send(message)
+            )
+        )
+        sockets.append(socket)
+
+    page.route_web_socket("**/socket", differences_wait)
+    page.reload()
+    until(page, "window.__studio?.view?.model")
+    at_rest(page)
+    page.keyboard.press("x")
+    while not delayed:
+        page.evaluate("1")  # Playwright delivers messages only during its calls.
+    other = page.locator("[role=option][aria-selected=false]").first
+    other.click()
+    until(page, "window.__studio.counts")
+    counts = page.evaluate("window.__studio.counts")
+    sockets[-1].send(delayed[0])
+    # The answer to a star comes after it, by the same way.
+    page.keyboard.press("s")
+    until(page, "window.__studio.view.stars.length == 1")
+    assert page.evaluate("window.__studio.counts") == counts
+    unstar(page)
 
 
 def test_the_difference_to_a_drawn_silhouette_lies_over_the_view(open_page, served):
     page = open_page(served)
     choose(page, "building", 1)
-    page.wait_for_timeout(300)
+    settled(page)
     page.keyboard.press("d")
     box = page.locator("main.stage").bounding_box()
     drag(page, box["x"] + 0.5 * box["width"], box["y"] + 0.35 * box["height"], 3, 180)
     until(page, "window.__studio.view.ask.sketch")
-    page.get_by_role("button", name="Grow into it").click()
-    until(page, "!window.__studio.view.searching && window.__studio.view.results.length == 1")
+    grow(page, "Grow into it")
     at_rest(page)
     page.keyboard.press("x")
     until(page, "window.__studio.counts")
@@ -162,15 +198,13 @@ def test_starred_results_stand_side_by_side_seen_by_one_camera(open_page, served
     with timed("compare"):
         page.keyboard.press("c")
         until(page, "window.__studio.compared.filter(triangles => triangles > 0).length == 3")
-    page.wait_for_timeout(500)
+    until(page, "window.__studio.comparedDetails.every(detail => detail == 'fine')")
     picture(page, "compare")
     assert page.locator(".side-name").count() == 3
     assert (camera(page) == before).all()
     page.locator(".side-name").nth(1).click()
     until(page, "window.__studio.view.picked.number == 1 && !window.__studio.compared.length")
-    for _ in range(3):
-        page.locator(".card .star[aria-pressed=true]").first.click()
-        page.wait_for_timeout(100)
+    unstar(page)
 
 
 def test_growth_is_scrubbed_and_played_in_the_order_of_the_run(open_page, served):
@@ -202,8 +236,7 @@ def test_growth_goes_part_by_part_with_reduced_motion(open_page, served):
     button = page.get_by_role("button", name="Show one more part")
     for count in (1, 2):
         button.click()
-        page.wait_for_timeout(200)
-        assert page.evaluate("window.__studio.drawn.length") == count
+        until(page, f"window.__studio.drawn.length == {count}")
 
 
 def test_the_camera_moves_until_the_first_result_of_a_model_and_then_only_by_hand(open_page, served, pile):
@@ -211,6 +244,11 @@ def test_the_camera_moves_until_the_first_result_of_a_model_and_then_only_by_han
     choose(page, "spaceship", 1)
     page.select_option("select[aria-label=Model]", str(pile))
     until(page, f"window.__studio.view.model.reference == {json.dumps(str(pile))}")
+    settled(page)
+    # The target of the model before does not count.
+    left, top, right, bottom = page.evaluate("window.__studio.box")
+    canvas = page.locator("main.stage canvas").first.bounding_box()
+    assert right - left > 0.6 * canvas["width"] or bottom - top > 0.6 * canvas["height"]
     page.select_option("select[aria-label=Target]", "box")
     until(page, "window.__studio.isGhostShown && window.__studio.ghost == 12")
     until(page, "window.__studio.shown.role == 'prior' && window.__studio.seesAll")

@@ -58,8 +58,9 @@ def test_a_page_shows_its_results(open_file, ships):
     other = min(ships, key=lambda ship: ship.log_score)
     assert page.evaluate(f"{STAGE}.piece.header.parts") == [part.address for part in other.scene.parts]
     shown = page.screenshot(clip={**box, "height": 400})
+    frames = page.evaluate(f"{STAGE}.frames")
     page.get_by_role("button", name="Target").click()
-    page.wait_for_timeout(300)
+    page.wait_for_function(f"{STAGE}.frames > {frames}")
     assert page.screenshot(clip={**box, "height": 400}) != shown
 
 

@@ -113,7 +113,7 @@ def until(page, expression):
 def picture(page, name):
     """Write a screenshot for people."""
     OUT.mkdir(parents=True, exist_ok=True)
-    page.wait_for_timeout(500)
+    until(page, "window.__studio.isStill")
     page.screenshot(path=OUT / f"{name}.png")
     folder = os.environ.get("NIWAKI_PICTURES")
     if folder is not None and name in MANUAL:
@@ -139,10 +139,11 @@ def choose(page, reference, count=3, seed=1):
     )
 
 
-def grow(page):
-    """Press Grow, and wait for its end."""
+def grow(page, name=None):
+    """Press Grow, or another button that starts a search, and wait for its end."""
     runs = page.evaluate("window.__studio.view.picked?.run ?? -1")
-    page.locator("button.primary").click()
+    button = page.locator("button.primary") if name is None else page.get_by_role("button", name=name)
+    button.click()
     until(page, f"!window.__studio.view.searching && (window.__studio.view.picked?.run ?? -1) != {runs}")
 
 
@@ -158,6 +159,18 @@ AT_REST = """(() => {
 def at_rest(page):
     """Wait for the fine shape and its choices."""
     until(page, AT_REST)
+
+
+def settled(page):
+    """Wait for the first contents of a model: a result, or a run before any search. The camera stays then."""
+    until(page, f"window.__studio.isGhostShown && (window.__studio.shown.role == 'prior' || {AT_REST})")
+
+
+def unstar(page):
+    """Remove all stars."""
+    for left in range(page.evaluate("window.__studio.view.stars.length"))[::-1]:
+        page.locator(".card .star[aria-pressed=true]").first.click()
+        until(page, f"window.__studio.view.stars.length == {left}")
 
 
 def click_part(page, address):

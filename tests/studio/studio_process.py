@@ -56,7 +56,7 @@ class Served:
     def next_token(self) -> str:
         """Wait for the token that the studio prints after a use."""
         assert self.process.stdout is not None
-        for _ in range(100):
+        for _ in range(1200):
             line = self.process.stdout.readline()
             if "token=" in line:
                 return line.split("token=")[1].strip()

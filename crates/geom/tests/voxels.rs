@@ -8,7 +8,9 @@
 mod scenes;
 
 use niwaki_geom::voxel::surface::touches;
-use niwaki_geom::{Grid, Mat3, Primitive, Shape, Sketch, Target, TriMesh, Vec3, VolumeMatch, Voxels, vec3};
+use niwaki_geom::{
+    CellWeight, Grid, Mat3, Primitive, Shape, Sketch, Target, TriMesh, Vec3, VolumeMatch, Voxels, vec3,
+};
 use scenes::{Dice, any_shape, torus};
 use std::sync::Arc;
 
@@ -179,6 +181,37 @@ fn counts_are_those_of_a_list_of_sets_in_any_order() {
     assert!(forward == rest && forward.log_score().to_bits() == rest.log_score().to_bits());
     primitives.iter().skip(1).step_by(2).for_each(|p| assert!(forward.remove(p)));
     assert!(forward == VolumeMatch::new(target, 0.02));
+}
+
+/// Cells of both of the cells of either, by sets of cells; the log score of it, after any order of adding and removing.
+#[test]
+fn balanced_counts_only_cells_that_either_fills() {
+    let mut dice = Dice::new(5);
+    let target = target();
+    let shapes: Vec<Shape> = (0..8).map(|_| any_shape(&mut dice, 1.5)).collect();
+    let sets: Vec<Vec<bool>> = shapes.iter().map(|s| ours(s, target.grid())).collect();
+    let [nx, ny, nz] = target.grid().dims();
+    let (mut both, mut either) = (0, 0);
+    for i in 0..nx * ny * nz {
+        let (scene, goal) = (sets.iter().any(|s| s[i]), target.contains([i % nx, i / nx % ny, i / nx / ny]));
+        both += usize::from(scene && goal);
+        either += usize::from(scene || goal);
+    }
+    assert!(both > 0 && both < target.filled() && either > target.filled());
+    let index = both as f64 / either as f64;
+    let start = VolumeMatch::new(target.clone(), 0.02).weighted(CellWeight::Balanced);
+    let mut sketch = start.clone();
+    shapes.iter().for_each(|s| sketch.add(&Primitive::new([s.clone()])));
+    assert_eq!(sketch.similarity(), index);
+    let normal = |z: f64, sigma: f64| -0.5 * (z * z) - (sigma * std::f64::consts::TAU.sqrt()).ln();
+    let by_hand = normal((index - 1.0) / 0.1, 0.1) + normal(sketch.overshoot() / 0.02, 0.02);
+    assert!((sketch.log_score() - by_hand).abs() < 1e-9 * by_hand.abs(), "{} {by_hand}", sketch.log_score());
+    // A copy in place has the weight of its source.
+    let mut copy = VolumeMatch::new(target.clone(), 0.02);
+    copy.clone_from(&sketch);
+    assert_eq!(copy.log_score().to_bits(), sketch.log_score().to_bits());
+    shapes.iter().for_each(|s| assert!(sketch.remove(&Primitive::new([s.clone()]))));
+    assert!(sketch == start && sketch.similarity() == 0.0);
 }
 
 #[test]

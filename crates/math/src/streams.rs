@@ -32,6 +32,50 @@ pub fn philox(counter: [u32; 4], key: [u32; 2]) -> [u32; 4] {
     [a, b, c, d]
 }
 
+/// The bits of [`philox`] as two words.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+#[allow(unsafe_code)]
+fn block(counter: [u64; 2], key: u64) -> [u64; 2] {
+    // SAFETY: every processor of this architecture has SSE2.
+    unsafe { block_in_lanes(counter, key) }
+}
+
+/// Philox with both products in one instruction: less than half of the instructions of two.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "sse2")]
+#[inline]
+fn block_in_lanes(counter: [u64; 2], key: u64) -> [u64; 2] {
+    use std::arch::x86_64 as simd;
+    let pair = |low: u64, high: u64| simd::_mm_set_epi64x(high.cast_signed(), low.cast_signed());
+    let [multipliers, steps] = [MULTIPLIER, WEYL].map(|[k, l]| pair(u64::from(k), u64::from(l)));
+    // Each number of 32 bits is the lower half of a lane; the upper halves have no meaning. The first lane has `a`, `b` and `k` of
+    // [`philox`], the second one `c`, `d` and `l`.
+    let mut even = pair(counter[0], counter[1]);
+    let mut odd = simd::_mm_srli_epi64(even, 32);
+    let mut keys = pair(key, key >> 32);
+    for _ in 0..10 {
+        let products = simd::_mm_mul_epu32(even, multipliers);
+        // The upper halves of the products change lanes, then their lower halves.
+        even = simd::_mm_xor_si128(simd::_mm_shuffle_epi32(products, 0x1B), simd::_mm_xor_si128(odd, keys));
+        odd = simd::_mm_shuffle_epi32(products, 0x4E);
+        keys = simd::_mm_add_epi32(keys, steps);
+    }
+    let [even, odd] = [even, odd].map(|lanes| simd::_mm_shuffle_epi32(lanes, 0x08));
+    let words = simd::_mm_unpacklo_epi32(even, odd);
+    [words, simd::_mm_unpackhi_epi64(words, words)].map(|word| simd::_mm_cvtsi128_si64(word).cast_unsigned())
+}
+
+/// The bits of [`philox`] as two words.
+#[cfg(not(target_arch = "x86_64"))]
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the quarters of a counter and the halves of a key")]
+fn block([low, high]: [u64; 2], key: u64) -> [u64; 2] {
+    let counter = [low as u32, (low >> 32) as u32, high as u32, (high >> 32) as u32];
+    let [a, b, c, d] = philox(counter, [key as u32, (key >> 32) as u32]);
+    [u64::from(b) << 32 | u64::from(a), u64::from(d) << 32 | u64::from(c)]
+}
+
 /// A bijection of 64 bits in which every input bit reaches every output bit (Stafford 2011, mix 13).
 #[inline]
 pub(crate) fn mix(mut x: u64) -> u64 {
@@ -53,8 +97,8 @@ const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Stream {
-    /// The address of the choice.
-    counter: [u32; 4],
+    /// The address of the choice, in two halves (a `u128` would align the stream to 16 bytes).
+    counter: [u64; 2],
     /// Hash of seed, stream and visit; each block mixes its number in.
     base: u64,
     /// Number of the next block.
@@ -90,10 +134,9 @@ impl StreamKey {
 
     /// The bits of the choice at `address`.
     #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "the four quarters of an address")]
+    #[expect(clippy::cast_possible_truncation, reason = "the two halves of an address")]
     pub fn at(self, address: u128) -> Stream {
-        let counter =
-            [address as u32, (address >> 32) as u32, (address >> 64) as u32, (address >> 96) as u32];
+        let counter = [address as u64, (address >> 64) as u64];
         Stream { counter, base: self.0, block: 0, words: [0; 2], left: 0 }
     }
 
@@ -113,12 +156,10 @@ impl Stream {
 
     /// Makes the next block.
     #[inline(never)]
-    #[expect(clippy::cast_possible_truncation, reason = "the two halves of a key")]
     fn make_block(&mut self) {
         let key = mix(self.base.wrapping_add(self.block.wrapping_mul(GOLDEN)));
-        let [a, b, c, d] = philox(self.counter, [key as u32, (key >> 32) as u32]);
         self.block += 1;
-        self.words = [u64::from(b) << 32 | u64::from(a), u64::from(d) << 32 | u64::from(c)];
+        self.words = block(self.counter, key);
         self.left = 2;
     }
 
@@ -193,6 +234,19 @@ mod tests {
             philox([0x243f_6a88, 0x85a3_08d3, 0x1319_8a2e, 0x0370_7344], [0xa409_3822, 0x299f_31d0]),
             [0xd16c_fe09, 0x94fd_cceb, 0x5001_e420, 0x2412_6ea1]
         );
+    }
+
+    #[test]
+    fn blocks_are_those_of_philox() {
+        for n in 0..1000 {
+            let [low, high, key] = [0, 1, 2].map(|k| mix(3 * n + k));
+            let [a, b, c, d] = philox(
+                [low as u32, (low >> 32) as u32, high as u32, (high >> 32) as u32],
+                [key as u32, (key >> 32) as u32],
+            );
+            let word = |low: u32, high: u32| u64::from(high) << 32 | u64::from(low);
+            assert_eq!(block([low, high], key), [word(a, b), word(c, d)]);
+        }
     }
 
     #[test]

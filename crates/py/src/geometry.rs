@@ -5,7 +5,7 @@
 
 use crate::values::Classes;
 use crate::views::{PyDrawing, PyPicture};
-use niwaki_geom::sketch::{SKETCHES, SketchForm};
+use niwaki_geom::sketch::{BALANCED_DEVIATIONS, SKETCHES, SketchForm};
 use niwaki_geom::solids::WORDS;
 use niwaki_geom::{
     Ellipse, GeomError, Inputs, Operation, Primitive, Shape, SketchSpec, Sketches, Solid, Stroke, Target,
@@ -473,6 +473,7 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
         sketches.set_item(name, forbids.map(|texts| (texts.part, texts.cure)))?;
     }
     module.add("SKETCHES", sketches)?;
+    module.add("BALANCED_DEVIATIONS", BALANCED_DEVIATIONS)?;
     module.add_class::<PyTarget>()?;
     module.add_class::<PySketchSpec>()?;
     module.add_class::<PySketch>()

@@ -1,7 +1,8 @@
 //! Finished runs, and their replays with names.
 
 use crate::geometry::PyShape;
-use crate::values::Classes;
+use crate::values::{Classes, distribution};
+use niwaki_math::Dist;
 use niwaki_particles::distinct::Choices;
 use niwaki_run::log::Entry;
 use niwaki_run::replay;
@@ -130,28 +131,51 @@ impl PyRun {
 }
 
 /// Choice with its name.
-#[pyclass(frozen, get_all, name = "Choice", module = "niwaki._engine")]
+#[pyclass(frozen, name = "Choice", module = "niwaki._engine")]
 pub struct PyChoice {
     /// Its readable address.
+    #[pyo3(get)]
     path: String,
     /// Hash of the address.
+    #[pyo3(get)]
     address: u128,
-    /// The family of its distribution.
-    family: &'static str,
     /// Its value: a word, where its options are words.
+    #[pyo3(get)]
     value: Py<PyAny>,
     /// The words of its options, in the order of the numbers that the run holds; None for a choice without words.
+    #[pyo3(get)]
     words: Option<Vec<String>>,
     /// Its log density, nats.
+    #[pyo3(get)]
     log_density: f64,
+    /// The number of primitives, factors and observations before it.
+    #[pyo3(get)]
+    barriers: usize,
+    dist: Dist,
+}
+
+#[pymethods]
+impl PyChoice {
+    /// The family of its distribution.
+    #[getter]
+    fn family(&self) -> &'static str {
+        self.dist.family().name()
+    }
+
+    /// Its distribution.
+    #[getter]
+    fn distribution<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        distribution(py, &self.dist)
+    }
 }
 
 impl PyChoice {
     pub fn of(py: Python<'_>, choice: &replay::Choice, classes: &Classes) -> PyResult<Py<PyChoice>> {
         let value = classes.object(py, &choice.named_value())?.unbind();
-        let (path, address, family) = (choice.path.clone(), choice.address, choice.family);
+        let (path, address, dist) = (choice.path.clone(), choice.address, choice.dist.clone());
         let words = choice.words.as_ref().map(|words| words.iter().map(|word| word.to_string()).collect());
-        Py::new(py, PyChoice { path, address, family, value, words, log_density: choice.log_density })
+        let (log_density, barriers) = (choice.log_density, choice.barriers);
+        Py::new(py, PyChoice { path, address, value, words, log_density, barriers, dist })
     }
 }
 
@@ -166,6 +190,8 @@ pub struct PyTrace {
     parts: Vec<(String, Vec<Py<PyShape>>)>,
     /// The query table.
     queries: Py<PyDict>,
+    /// The number of primitives before which a host function was called, after the primitive before.
+    hosted: usize,
 }
 
 impl PyTrace {
@@ -185,6 +211,7 @@ impl PyTrace {
             run: Py::new(py, PyRun::new(Arc::new(trace.run), classes.clone()))?,
             parts,
             queries: queries.unbind(),
+            hosted: trace.hosted,
         })
     }
 }

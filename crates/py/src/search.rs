@@ -364,7 +364,13 @@ impl PyTask {
             None if partial => Missing::Stop,
             None => Missing::Refuse,
         };
-        let trace = self.at_once(py, || replay(&self.task, Source::Paths(&paths), missing))?;
+        let trace = self.at_once(py, || {
+            let made = replay(&self.task, Source::Paths(&paths), missing);
+            if let Err(Failure::Run(met)) = &made {
+                self.task.invalid.count(met);
+            }
+            made
+        })?;
         PyTrace::new(py, trace, classes)
     }
 }
@@ -497,6 +503,8 @@ impl PyTask {
                 dict.set_item("rounds", PyTuple::new(py, rounds.clone().map(of))?)?;
                 dict.set_item("seconds", PyTuple::new(py, rounds.map(|round| round.time.as_secs_f64()))?)?;
                 dict.set_item("searches", result.searches)?;
+                dict.set_item("kinds", PyTuple::new(py, result.kinds)?)?;
+                dict.set_item("niches", result.niches)?;
                 dict.set_item("losses", faults::losses(py, &result.lost, &self.task.program)?)?;
             }
             Info::Chain(result) => {

@@ -234,7 +234,7 @@ fn array(object: &Bound<'_, PyAny>) -> PyResult<Value> {
 }
 
 /// Converts a distribution to a class of `niwaki.words`.
-fn distribution<'py>(py: Python<'py>, dist: &Dist) -> PyResult<Bound<'py, PyAny>> {
+pub fn distribution<'py>(py: Python<'py>, dist: &Dist) -> PyResult<Bound<'py, PyAny>> {
     let row = |xs: &[f64]| PyTuple::new(py, xs).map(Bound::into_any);
     let part = |param: &Param| match param {
         Param::Bool(b) => Ok(b.into_pyobject(py)?.to_owned().into_any()),

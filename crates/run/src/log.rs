@@ -7,11 +7,9 @@ use niwaki_math::Draw;
 use niwaki_vm::value::{Census, Value};
 use serde::ser::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use smallvec::SmallVec;
+use std::array;
 use std::sync::Arc;
-
-/// Entries since the last copy. A few need no allocation: most barriers are a few choices apart.
-type Recent = SmallVec<[Entry; 4]>;
+use std::vec::Drain;
 
 /// The most recent entries before they are frozen: a list that grows without copies would be half empty.
 const BLOCK: usize = 64;
@@ -54,19 +52,28 @@ impl Entry {
     }
 }
 
-/// A block of frozen entries, and the blocks before it.
+/// A block of frozen entries, and the blocks before it. It is one allocation: most barriers are a few choices apart.
 #[derive(Debug)]
-struct Frozen {
-    entries: Box<[Entry]>,
+struct Frozen<E: ?Sized = [Entry]> {
     before: Option<Arc<Frozen>>,
+    entries: E,
 }
 
-impl Drop for Frozen {
+impl Frozen {
+    /// A block of the next `N` entries.
+    #[inline]
+    fn of<const N: usize>(entries: &mut Drain<'_, Entry>, before: Option<Arc<Frozen>>) -> Arc<Frozen> {
+        let entries: [Entry; N] = array::from_fn(|_| entries.next().expect("so many entries are left"));
+        Arc::new(Frozen { before, entries })
+    }
+}
+
+impl<E: ?Sized> Drop for Frozen<E> {
     fn drop(&mut self) {
-        // A long chain must not be dropped by recursion.
+        // A long chain must not be dropped by recursion. (If two threads drop its last two owners at once, one drops it from there.)
         let mut next = self.before.take();
-        while let Some(mut block) = next.and_then(Arc::into_inner) {
-            next = block.before.take();
+        while let Some(mut block) = next {
+            next = Arc::get_mut(&mut block).and_then(|block| block.before.take());
         }
     }
 }
@@ -75,7 +82,8 @@ impl Drop for Frozen {
 #[derive(Debug, Default)]
 pub struct Log {
     frozen: Option<Arc<Frozen>>,
-    recent: Recent,
+    /// Entries since the last copy.
+    recent: Vec<Entry>,
 }
 
 impl Log {
@@ -96,16 +104,24 @@ impl Log {
     /// Copy the log; both logs share the present entries.
     pub fn fork(&mut self) -> Log {
         self.freeze();
-        Log { frozen: self.frozen.clone(), recent: Recent::new() }
+        Log { frozen: self.frozen.clone(), recent: Vec::new() }
     }
 
     fn freeze(&mut self) {
-        if !self.recent.is_empty() {
-            // With no spare capacity.
-            let mut entries = Vec::with_capacity(self.recent.len());
-            entries.extend(self.recent.drain(..));
-            let entries = entries.into_boxed_slice();
-            self.frozen = Some(Arc::new(Frozen { entries, before: self.frozen.take() }));
+        // The list keeps its room, the blocks have no spare one.
+        let mut entries = self.recent.drain(..);
+        while entries.len() > 0 {
+            let before = self.frozen.take();
+            self.frozen = Some(match entries.len() {
+                1 => Frozen::of::<1>(&mut entries, before),
+                2 => Frozen::of::<2>(&mut entries, before),
+                3 => Frozen::of::<3>(&mut entries, before),
+                4..8 => Frozen::of::<4>(&mut entries, before),
+                8..16 => Frozen::of::<8>(&mut entries, before),
+                16..32 => Frozen::of::<16>(&mut entries, before),
+                32..BLOCK => Frozen::of::<32>(&mut entries, before),
+                _ => Frozen::of::<BLOCK>(&mut entries, before),
+            });
         }
     }
 
@@ -121,7 +137,7 @@ impl Log {
         let mut parts = vec![&self.recent[..]];
         let mut at = self.frozen.as_ref();
         while let Some(frozen) = at.filter(|frozen| census.is_first(frozen)) {
-            census.add_bytes(size_of::<Frozen>() + 16);
+            census.add_bytes(size_of::<Frozen<[Entry; 0]>>() + 16);
             parts.push(&frozen.entries);
             at = frozen.before.as_ref();
         }

@@ -28,14 +28,16 @@ pub struct Choice {
     pub path: String,
     /// The address: the hash of the path.
     pub address: u128,
-    /// The name of the family of the prior.
-    pub family: &'static str,
+    /// The prior.
+    pub dist: Dist,
     /// The value.
     pub value: Value,
     /// The words of its numbers ([`At::words`]).
     pub words: Option<Vec<Text>>,
     /// The log density under the prior, nats.
     pub log_density: f64,
+    /// The number of barriers before it: primitives, factors and observations.
+    pub barriers: usize,
 }
 
 impl Choice {
@@ -58,6 +60,8 @@ pub struct Trace {
     pub parts: Vec<Part>,
     /// The query table.
     pub queries: Vec<(Value, Value)>,
+    /// The number of primitives before which a host function was called, after the primitive before.
+    pub hosted: usize,
 }
 
 /// A primitive of the scene with readable names.
@@ -137,15 +141,19 @@ struct Replay<'a> {
     written: HashMap<u64, Vec<(Value, u32)>>,
     /// Bytes of the names and parts so far; the budget of the run itself does not count them.
     named: usize,
+    /// Primitives, factors and observations so far, and whether a host function was called since the last primitive.
+    barriers: usize,
+    is_hosted: bool,
 }
 
 impl Replay<'_> {
     /// Adds a choice with its readable address and its words to the trace.
     fn note(&mut self, at: &At<'_, f64>, dist: &Dist, value: &Value, log_density: f64) -> Result<(), Fault> {
         let words = at.words();
-        let path = self.path(at, CHOICE + words.as_ref().map_or(0, |words| words.len() * WORD))?;
-        let (address, family, value) = (at.address(), dist.family().name(), value.clone());
-        self.trace.choices.push(Choice { path, address, family, value, words, log_density });
+        let path =
+            self.path(at, CHOICE + dist.bytes() + words.as_ref().map_or(0, |words| words.len() * WORD))?;
+        let (address, dist, value, barriers) = (at.address(), dist.clone(), value.clone(), self.barriers);
+        self.trace.choices.push(Choice { path, address, dist, value, words, log_density, barriers });
         Ok(())
     }
 
@@ -186,6 +194,8 @@ impl Answers<f64> for Replay<'_> {
     }
 
     fn score(&mut self, at: &At<'_, f64>, factor: Factor, log: f64) -> Result<Answer<()>, Fault> {
+        // A held choice is one factor, wherever it stands.
+        self.barriers += usize::from(!matches!(factor, Factor::Held));
         self.record.factor(check_factor(log)?, || factor_name(at, factor));
         Ok(self.resume(()))
     }
@@ -204,6 +214,8 @@ impl Answers<f64> for Replay<'_> {
         let path = self.path(at, PART + size_of_val(shapes))?;
         self.trace.parts.push(Part { path, shapes: shapes.to_vec(), place });
         self.record.emit(shapes);
+        self.barriers += 1;
+        self.trace.hosted += usize::from(std::mem::take(&mut self.is_hosted));
         Ok(self.resume(()))
     }
 
@@ -226,6 +238,7 @@ impl Answers<f64> for Replay<'_> {
     }
 
     fn host(&mut self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault> {
+        self.is_hosted = true;
         self.task.hosts.call(constant, args, steps)
     }
 }
@@ -257,7 +270,9 @@ pub fn replay(task: &Task, source: Source<'_>, missing: Missing) -> Result<Trace
     state.remember_origins();
     let (trace, record) = (Trace::default(), Record::start(&task.sketches));
     let chooser = Sourced { source, missing };
-    let mut answers = Replay { task, chooser, trace, record, written: HashMap::new(), named: 0 };
+    let written = HashMap::new();
+    let mut answers =
+        Replay { task, chooser, trace, record, written, named: 0, barriers: 0, is_hosted: false };
     let mut stopped = Vec::new();
     machine.drive(&mut state, &mut answers, |answers, state, last| {
         if missing != Missing::Stop {

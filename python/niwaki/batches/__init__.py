@@ -13,6 +13,7 @@
 | `pools` | executors and pools of processes |
 | `clusters` | Ray and Dask, as executors |
 | `execution` | chunks under way, results, and lost workers |
+| `tables` | rows with names as CSV or Parquet |
 | `export` | a batch as a table, a contact sheet and meshes |
 """
 

@@ -6,28 +6,26 @@ columns are the case, the varied values, the seed, and numbers of the best run.
 
 from __future__ import annotations
 
-import csv
 import heapq
-import io
 import json
 import math
-from itertools import islice
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 from niwaki import draw
+from niwaki.batches import tables
 from niwaki.batches.body import Outcome
 from niwaki.batches.entry import outcomes
 from niwaki.batches.store import Store
 from niwaki.errors import InputError
-from niwaki.errors.extras import optional
-from niwaki.errors.files import ensure_folder, write_whole
+from niwaki.errors.files import ensure_folder
 from niwaki.result import caption
 from niwaki.search.data import mesh_hash
 
 #: The columns of every table, after the columns of varied values, with their types.
 COLUMNS: dict[str, type] = {
-    "seed": int,
+    "seed": tables.Unsigned,
     "log_score": float,
     "log_prior": float,
     "log_evidence": float,
@@ -38,9 +36,6 @@ COLUMNS: dict[str, type] = {
     "samples": int,
     "fault": str,
 }
-
-#: Rows of a table that are in memory at once, for Parquet.
-BLOCK = 10_000
 
 
 def numbers(outcome: Outcome, choices: bool = False) -> dict[str, Any]:
@@ -86,15 +81,7 @@ def write_csv(place: Path, store: Store, trust: tuple[str, ...] = (), choices: b
     FileError
         The file cannot be written.
     """
-    text = io.StringIO()
-    lines: Any = None
-    for outcome in outcomes(store, trust):
-        row = numbers(outcome, choices)
-        if lines is None:
-            lines = csv.DictWriter(text, list(row), lineterminator="\n")
-            lines.writeheader()
-        lines.writerow(row)
-    return write_whole(place, text.getvalue().encode())
+    return tables.write_csv(place, *_table(store, trust, choices))
 
 
 def write_parquet(place: Path, store: Store, trust: tuple[str, ...] = (), choices: bool = False) -> Path:
@@ -105,39 +92,17 @@ def write_parquet(place: Path, store: Store, trust: tuple[str, ...] = (), choice
     FileError
         PyArrow is not installed, or the file cannot be written.
     """
-    arrow = optional("pyarrow", "writing Parquet", "parquet")
-    parquet = optional("pyarrow.parquet", "writing Parquet", "parquet")
-    kinds = {int: arrow.int64(), float: arrow.float64(), str: arrow.string(), bool: arrow.bool_()}
-    fields = {"case": int, **_kinds(store), **COLUMNS, **({"choices": str} if choices else {})}
-    # Seeds go up to 2**64 - 1.
-    schema = arrow.schema(
-        [(name, arrow.uint64() if name == "seed" else kinds[kind]) for name, kind in fields.items()]
-    )
-    data = io.BytesIO()
-    rows = (numbers(outcome, choices) for outcome in outcomes(store, trust))
-    with parquet.ParquetWriter(data, schema) as writer:
-        while block := list(islice(rows, BLOCK)):
-            writer.write_table(arrow.Table.from_pylist([_typed(row, fields) for row in block], schema=schema))
-    return write_whole(place, data.getvalue())
+    return tables.write_parquet(place, *_table(store, trust, choices))
 
 
-def _kinds(store: Store) -> dict[str, type]:
-    """Return the type of each label: the common type of its values, or text."""
+def _table(
+    store: Store, trust: tuple[str, ...], choices: bool
+) -> tuple[dict[str, type], Iterator[dict[str, Any]]]:
+    """Return the columns of a table with their types, and its rows."""
     cases = store.whole.cases
-    kinds: dict[str, type] = {}
-    for name in cases[0].labels:
-        types = {type(case.labels.get(name)) for case in cases}
-        kinds[name] = types.pop() if len(types) == 1 else float if types == {int, float} else str
-        kinds[name] = kinds[name] if kinds[name] in (int, float, str, bool) else str
-    return kinds
-
-
-def _typed(row: dict[str, Any], fields: dict[str, type]) -> dict[str, Any]:
-    """Return a row with text in its columns of text."""
-    return {
-        name: str(value) if fields[name] is str and value is not None else value
-        for name, value in row.items()
-    }
+    labels = {name: tables.kind(case.labels.get(name) for case in cases) for name in cases[0].labels}
+    columns = {"case": int, **labels, **COLUMNS, **({"choices": str} if choices else {})}
+    return columns, (numbers(outcome, choices) for outcome in outcomes(store, trust))
 
 
 def best_of(store: Store, count: int, trust: tuple[str, ...] = ()) -> list[Outcome]:

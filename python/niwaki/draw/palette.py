@@ -25,6 +25,9 @@ ACCENTS: tuple[Color, ...] = ((0.80, 0.37, 0.20), (0.84, 0.45, 0.24))
 BARKS: tuple[Color, ...] = ((0.44, 0.35, 0.29),)
 PINES: tuple[Color, ...] = ((0.36, 0.47, 0.28), (0.32, 0.43, 0.28), (0.41, 0.50, 0.30))
 
+#: The colour of an obstacle's ghost, on light and on dark backdrops, sRGB: in pictures, and in the studio.
+OBSTACLE: dict[str, Color] = {"light": (0.706, 0.337, 0.29), "dark": (0.851, 0.514, 0.478)}
+
 #: The roughness of chalk, and the difference to that of lacquer.
 DULL, LACQUER = 0.9, 0.55
 

@@ -1,4 +1,4 @@
-"""Pictures of scenes, with the target as a ghost of tinted glass.
+"""Pictures of scenes, with the target and the obstacles as ghosts of tinted glass, each in a colour of its own.
 
 The engine's ray caster draws a soft sun, sky light, and a floor with the shadow. Equal scenes give equal pixels on any
 number of threads. A scene of flat shapes becomes a drawing: see `flat`.
@@ -22,7 +22,7 @@ from niwaki.draw.assembly import Assembly, Volume
 from niwaki.draw.flat.drawing import Window, drawing
 from niwaki.draw.flat.marks import is_flat
 from niwaki.draw.limits import LARGEST, check_rays, check_size
-from niwaki.draw.palette import paints
+from niwaki.draw.palette import OBSTACLE, paints
 from niwaki.draw.parts import coated
 from niwaki.errors import FileError
 from niwaki.errors.files import check_place, write_whole
@@ -32,6 +32,8 @@ Backdrop = Literal["studio", "white", "slate", "clear"]
 Rgb = tuple[float, float, float]
 Camera = tuple[Rgb, Rgb, Rgb, float]
 
+#: The backdrop with the obstacles of the dark palette.
+DARK = "slate"
 #: The upper and lower colour of each backdrop, sRGB; None for a transparent backdrop.
 BACKDROPS: dict[str, tuple[Rgb, Rgb] | None] = {
     "studio": ((0.965, 0.96, 0.95), (0.885, 0.878, 0.865)),
@@ -139,8 +141,8 @@ def picture(
             like=like,
         )
     shown = surfaces(scene, like)
-    ghosts = [*obstacles] if target is None else [target, *obstacles]
-    ghost = _ghost(ghosts) if ghosts else None
+    aims = [] if target is None else [target]
+    ghost = _ghost([*aims, *obstacles])
     check_rays(size, sum(part.triangles for part in (shown, ghost) if part is not None))
     if camera is None:
         camera = _engine.frame_camera(
@@ -155,17 +157,23 @@ def picture(
     standing = scene if like is None else like
     low, high = standing.bounds if len(standing) else target.bounds  # type: ignore[union-attr]
     foot = float(low[1] - lift * (high[1] - low[1]))
-    pixels = _engine.render(
-        shown,
-        ghost,
-        camera=camera,
-        width=width,
-        height=height,
-        samples=samples,
-        backdrop=BACKDROPS[backdrop],
-        floor=foot if ground is None else min(foot, ground),
-    )
+    view: dict[str, Any] = {"camera": camera, "width": width, "height": height}
+    stage: dict[str, Any] = {"samples": samples, "backdrop": BACKDROPS[backdrop]}
+    stage["floor"] = foot if ground is None else min(foot, ground)
+    color = OBSTACLE["dark" if backdrop == DARK else "light"]
+    pixels = _engine.render(shown, ghost, **view, **stage, ghost_color=None if aims else color)
+    if aims and obstacles:
+        # The engine draws a ghost in one colour: the obstacles' pixels are those of a second picture.
+        tinted = _engine.render(shown, ghost, **view, **stage, ghost_color=color)
+        here, there = (_opacity(_ghost(solids), view) for solids in (obstacles, aims))
+        share = (here / np.maximum(here + there, 1e-9))[..., None]
+        pixels = np.rint(pixels + share * (tinted.astype(np.float64) - pixels)).astype(np.uint8)
     return Image.fromarray(pixels, "RGBA")
+
+
+def _opacity(ghost: _engine.Surfaces | None, view: dict[str, Any]) -> NDArray[np.float64]:
+    """Return the opacity of a ghost alone in each pixel, from 0 to 255."""
+    return _engine.render(_engine.Surfaces([]), ghost, **view, samples=4)[..., 3].astype(np.float64)
 
 
 def surfaces(scene: Assembly, like: Assembly | None = None) -> _engine.Surfaces:
@@ -227,8 +235,10 @@ def preview(scene: Assembly) -> bytes:
     return png(picture(scene, size=(800, 600)) if len(scene) else Image.new("RGBA", (1, 1)))
 
 
-def _ghost(solids: Sequence[Volume]) -> _engine.Surfaces:
-    """Make the surface of ghosts; its normals are smooth where it is smooth."""
+def _ghost(solids: Sequence[Volume]) -> _engine.Surfaces | None:
+    """Make the surface of ghosts, None without solids; its normals are smooth where it is smooth."""
+    if not solids:
+        return None
     starts = np.cumsum([0, *(len(solid.vertices) for solid in solids)])
     vertices = np.concatenate([solid.vertices for solid in solids])
     faces = np.concatenate([solid.faces + start for solid, start in zip(solids, starts, strict=False)])

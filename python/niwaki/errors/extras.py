@@ -13,6 +13,7 @@ EXTRAS = {
     "arviz": "plots and tables of draws by ArviZ (`result.to_arviz()`)",
     "cluster": "batches on Ray or Dask (`niwaki batch --engine`)",
     "color": "pictures of coloured drawings (`niwaki color`)",
+    "mcp": "the studio's messages as tools for programs that write models (`niwaki mcp`)",
     "notebook": "a viewer in a notebook whose results can be replaced (`niwaki.view(...).widget()`)",
     "parquet": "a batch's table as Parquet (`niwaki batch export --format parquet`)",
     "print": "files of solids with holes, one closed solid for a printer (`--format stl`, `--format 3mf`)",

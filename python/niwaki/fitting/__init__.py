@@ -2,9 +2,7 @@
 
 | module | contents |
 | --- | --- |
-| `space` | parameters: their ranges, and the conditions under which they are used |
 | `goals` | what a scene is scored by: sketches of the package, and numbers with a tolerance |
-| `features` | what a scene gets wrong, as a vector: the differences that the emulator learns |
 | `loop` | `FitLoop`: asks for points, and takes what came of them |
 | `answers` | the answers of a search: the best, a table, variants, intervals, what moves what |
 | `effects` | a picture of what moves what |

@@ -16,5 +16,3 @@ from .loop import Point as Point
 from .openscad import scad as scad
 from .result import FitResult as FitResult
 from .result import FitSample as FitSample
-from .space import Parameter as Parameter
-from .space import Space as Space

@@ -5,26 +5,24 @@ All of them come from the evaluations that were made. None calls the model.
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 from statistics import NormalDist
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from niwaki import fitting
+from niwaki.batches import tables
 from niwaki.errors import InputError
-from niwaki.errors.extras import optional
-from niwaki.errors.files import write_whole
 from niwaki.errors.settings import bad, count, real
-from niwaki.fitting.features import VolumeDifferences
 from niwaki.fitting.goals import Outcome
 from niwaki.once import cached_property
+from niwaki.search.space import Axis
+from niwaki.targets.differences import VolumeDifferences
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -101,7 +99,8 @@ class Interval:
     low, high : float or None
         The ends; None for a parameter with levels.
     levels : dict or None
-        The probabilities of the levels; None for a real number.
+        The probabilities of the levels, calibrated by evaluations with known levels; None for a real number, and where
+        too few evaluations calibrate them.
     used : float
         The probability that the parameter is used.
     identified : bool
@@ -126,6 +125,8 @@ class Interval:
     def __str__(self) -> str:
         if not self.identified:
             return f"{self.name}: the goal does not tell"
+        if self.low is None and self.levels is None:
+            return f"{self.name}: too few evaluations to tell how probable its values are"
         if self.levels is not None:
             return f"{self.name}: " + ", ".join(f"{level} {p:.0%}" for level, p in self.levels.items())
         return f"{self.name}: {self.low:.4g} to {self.high:.4g} ({self.share:.0%})"
@@ -143,12 +144,20 @@ class Effect:
         The length of the change of all differences, when the parameter moves by a tenth of its range or to its next
         level.
     blocks : (x, y, z) float64 or None
-        The cells that change in each block of the target's grid; None without a target volume.
+        The cells that each block of the target's grid gains, below 0 for those that it loses; None without a target
+        volume.
+    values : tuple
+        The values between which the parameter moves, the lower one first.
     """
 
     name: str
     size: float
     blocks: NDArray[np.float64] | None
+    values: tuple[Any, Any]
+
+    def __str__(self) -> str:
+        low, high = (f"{value:.3g}" if isinstance(value, float) else str(value) for value in self.values)
+        return f"{self.name}: {low} to {high}"
 
 
 class Answers(Sequence[Answer]):
@@ -266,7 +275,7 @@ class Answers(Sequence[Answer]):
         """
         axis, number = self.space.axis(name), self.space.names.index(name)
         real("share", share, 0, 1)
-        power, covered = self._calibrated(share)
+        power, covered, doubt = self._calibrated(share)
         rows, used = self._posterior(power)
         on = used[:, number]
         probability = float(on.mean())
@@ -286,9 +295,14 @@ class Answers(Sequence[Answer]):
                 power,
                 covered,
             )
+        if doubt is None:
+            # Shares of chains that nothing calibrates would only look like probabilities.
+            return Interval(name, share, None, None, None, probability, self._tells(number), power, covered)
         shares = dict.fromkeys(axis.values, 0.0)
         for place in places:
-            shares[axis.value(float(place))] += 1.0 / len(places)
+            shares[axis.value(float(place))] += (1.0 - doubt) / len(places)
+        for value, before in _shares_beforehand(axis).items():
+            shares[value] += (doubt if len(places) else 1.0) * before
         is_certain = max(shares.values(), default=0.0) > 1.0 / max(len(shares), 1) + 0.1
         is_told = is_certain and self._tells(number)
         return Interval(name, share, None, None, shares, probability, is_told, power, covered)
@@ -313,38 +327,49 @@ class Answers(Sequence[Answer]):
         """
         self._check()
         best = self._loop.points[self.best.number]
-        steps: list[tuple[str, list[list[float]]]] = []
+        steps: list[tuple[Axis, list[float], list[list[float]]]] = []
         for k, axis in enumerate(self.space.axes):
             if not best.used[k]:
                 continue
             if axis.range is not None:
-                ends = [min(best.row[k] + 0.05, 1.0), max(best.row[k] - 0.05, 0.0)]
+                ends = [max(best.row[k] - 0.05, 0.0), min(best.row[k] + 0.05, 1.0)]
             else:
                 levels = len(axis.values)
                 level = min(int(best.row[k] * levels), levels - 1)
                 if levels == 1:
                     continue
                 other = level + 1 if level + 1 < levels else level - 1
-                ends = [(level + 0.5) / levels, (other + 0.5) / levels]
+                ends = [(number + 0.5) / levels for number in sorted((level, other))]
             pair = []
             for end in ends:
                 row = list(best.row)
                 row[k] = end
                 pair.append(self._loop.proposer.snap(row)[0])
-            steps.append((axis.name, pair))
-        rows = np.array([row for _, pair in steps for row in pair])
+            steps.append((axis, ends, pair))
+        rows = np.array([row for _, _, pair in steps for row in pair])
         means, _ = self._loop.proposer.predict(rows)
-        changes = means[0::2] - means[1::2]
+        changes = means[1::2] - means[0::2]
         blocks = self._blocks(changes)
         out = [
-            Effect(name, float(np.sqrt((changes[k] ** 2).sum())), None if blocks is None else blocks[k])
-            for k, (name, _) in enumerate(steps)
+            Effect(
+                axis.name,
+                float(np.sqrt((changes[k] ** 2).sum())),
+                None if blocks is None else blocks[k],
+                (axis.value(ends[0]), axis.value(ends[1])),
+            )
+            for k, (axis, ends, _) in enumerate(steps)
         ]
         return sorted(out, key=lambda effect: -effect.size)
 
     def picture(self, size: int = 160) -> Image:
         """Draw the sensitivity: for each parameter a bar, and the parts that it moves, seen from the front."""
-        return fitting.effects.drawn(self.sensitivity(), size)
+        volume = self._volume
+        body = None if volume is None else volume.blocks()
+        return fitting.effects.drawn(self.sensitivity(), body, size)
+
+    @property
+    def _volume(self) -> VolumeDifferences | None:
+        return next((part for part in self.goal.parts if isinstance(part, VolumeDifferences)), None)
 
     def _kind(self, answer: Answer) -> tuple[Any, ...]:
         return tuple(answer.parameters.get(axis.name, ...) for axis in self.space.axes if axis.range is None)
@@ -364,47 +389,55 @@ class Answers(Sequence[Answer]):
         return self._posteriors[power]
 
     @cached_property
-    def _powers(self) -> dict[float, tuple[float, float | None]]:
+    def _calibrations(self) -> dict[float, Calibration]:
         return {}
 
-    def _calibrated(self, share: float) -> tuple[float, float | None]:
-        """The sharpest power whose intervals cover a share of the known parameters, and the share that they cover."""
-        if share not in self._powers:
-            self._powers[share] = self._calibrate(share)
-        return self._powers[share]
+    def _calibrated(self, share: float) -> Calibration:
+        """What evaluations near the best, as targets with known parameters, tell about posteriors."""
+        if share not in self._calibrations:
+            self._calibrations[share] = self._calibrate(share)
+        return self._calibrations[share]
 
-    def _calibrate(self, share: float) -> tuple[float, float | None]:
+    def _calibrate(self, share: float) -> Calibration:
         near = self._seen[: 3 * PSEUDO : 3] if len(self._seen) >= 3 * PSEUDO else self._seen[:PSEUDO]
         reals = [k for k, axis in enumerate(self.space.axes) if axis.range is not None]
-        if len(near) < FEWEST or len(self._seen) < 5 * FEWEST or not reals:
-            return FALLBACK, None
-        last: tuple[float, float | None] = (FALLBACK, None)
+        if len(near) < FEWEST or len(self._seen) < 5 * FEWEST:
+            return Calibration(FALLBACK, None, None)
         bell = NormalDist()
         deviations = bell.inv_cdf(0.5 + 0.5 * share)
-        for power, ratio in POWERS.items():
+        last = Calibration(FALLBACK, None, None)
+        for power, ratio in POWERS.items() if reals else [(FALLBACK, 1.0)]:
             inside = total = 0
+            known: list[tuple[float, float]] = []
             for answer in near:
                 point = self._loop.points[answer.number]
                 rows, used = self._loop.proposer.posterior(
                     power, self._loop.seed + 1, SHORT[0], SHORT[1], answer.number
                 )
-                for k in reals:
-                    if point.used[k] and used[:, k].any():
-                        low, high = _ends(rows[used[:, k], k], share)
+                for k, axis in enumerate(self.space.axes):
+                    if not point.used[k]:
+                        continue
+                    places = rows[used[:, k], k]
+                    if axis.range is None:
+                        share_of_truth = float((places == point.row[k]).mean()) if len(places) else 0.0
+                        known.append((share_of_truth, _shares_beforehand(axis)[axis.value(point.row[k])]))
+                    elif len(places):
+                        low, high = _ends(places, share)
                         inside += low <= point.row[k] <= high
                         total += 1
+            doubt = _doubt(known, len(near))
             if not total:
-                return FALLBACK, None
+                return Calibration(FALLBACK, None, doubt)
             before = 2.0 * bell.cdf(ratio * deviations) - 1.0
             weight = EACH * len(reals)
-            last = (power, inside / total)
+            last = Calibration(power, inside / total, doubt)
             if weight * inside / total + BEFORE * before >= share * (weight + BEFORE):
                 return last
         return last
 
     def _blocks(self, changes: NDArray[np.float64]) -> NDArray[np.float64] | None:
         """The changes of the cells in blocks, from changes along the emulator's directions."""
-        volume = next((part for part in self.goal.parts if isinstance(part, VolumeDifferences)), None)
+        volume = self._volume
         if volume is None:
             return None
         start = self.goal.parts.index(volume)
@@ -424,34 +457,58 @@ class Answers(Sequence[Answer]):
         return (changes @ back / scale).reshape(len(changes), *shape)
 
 
+class Calibration(NamedTuple):
+    """The lesson of known parameters about posteriors.
+
+    Attributes
+    ----------
+    power : float
+        The power of the likelihood.
+    covered : float or None
+        The share of the known real numbers that intervals cover with it.
+    doubt : float or None
+        The share of what is known beforehand in the probabilities of levels; None for too few known levels.
+    """
+
+    power: float
+    covered: float | None
+    doubt: float | None
+
+
+def _shares_beforehand(axis: Axis) -> dict[Any, float]:
+    """The probabilities of the levels of a parameter by its range."""
+    weights = axis.weights or (1.0,) * len(axis.values)
+    return {value: weight / sum(weights) for value, weight in zip(axis.values, weights, strict=True)}
+
+
+def _doubt(known: Sequence[tuple[float, float]], count: int) -> float | None:
+    """The share of what is known beforehand that makes probabilities of levels true: its mean, by known levels.
+
+    Chains change their levels seldom, so that their shares are too sure. The known levels of one target are not
+    independent: together they count as often as there are targets. Without any the probabilities are withheld.
+
+    Parameters
+    ----------
+    known
+        For each known level, its share of the chains, and its probability beforehand.
+    count
+        The number of targets.
+    """
+    if len(known) < FEWEST:
+        return None
+    shares, before = np.array(known).T
+    doubts = np.linspace(0.005, 0.995, 100)
+    logs = np.log(doubts[:, None] * before + (1.0 - doubts[:, None]) * shares).sum(1) * count / len(known)
+    weights = np.exp(logs - logs.max())
+    return float((doubts * weights).sum() / weights.sum())
+
+
 def _ends(places: NDArray[np.float64], share: float) -> tuple[float, float]:
     low, high = np.quantile(places, [0.5 - 0.5 * share, 0.5 + 0.5 * share])
     return float(low), float(high)
 
 
 def write_rows(place: Path, rows: list[dict[str, Any]]) -> None:
-    """Write rows that have the same names, as .csv or .parquet."""
+    """Write the rows of a table, which have the same names, as .csv or .parquet."""
     names = list(rows[0]) if rows else ["number"]
-    if place.suffix == ".parquet":
-        arrow = optional("pyarrow", "writing Parquet", "parquet")
-        parquet = optional("pyarrow.parquet", "writing Parquet", "parquet")
-        columns = {}
-        for name in names:
-            values = [row[name] for row in rows]
-            kinds = {type(value) for value in values if value is not None}
-            if kinds == {int, float}:
-                values = [None if value is None else float(value) for value in values]
-            elif len(kinds) > 1 or kinds - {int, float, str, bool}:
-                values = [None if value is None else str(value) for value in values]
-            columns[name] = values
-        data = io.BytesIO()
-        parquet.write_table(arrow.table(columns), data)
-        write_whole(place, data.getvalue())
-        return
-    if place.suffix != ".csv":
-        raise bad("path", str(place), "a name that ends in .csv or .parquet", "such a name")
-    text = io.StringIO()
-    lines = csv.DictWriter(text, names, lineterminator="\n")
-    lines.writeheader()
-    lines.writerows(rows)
-    write_whole(place, text.getvalue().encode())
+    tables.write(place, {name: tables.kind(row[name] for row in rows) for name in names}, rows)

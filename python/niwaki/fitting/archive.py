@@ -137,12 +137,8 @@ class Archive:
         head = asdict(entry) | {"record": "point", "mesh": len(entry.mesh)}
         body = b""
         if isinstance(entry.outcome, Outcome):
-            features = np.ascontiguousarray(entry.outcome.features, "<f4").tobytes()
-            head["outcome"] = asdict(entry.outcome) | {
-                "features": len(features),
-                "cells": len(entry.outcome.cells),
-            }
-            body = features + entry.outcome.cells
+            body = np.ascontiguousarray(entry.outcome.features, "<f4").tobytes()
+            head["outcome"] = asdict(entry.outcome) | {"features": len(body)}
         self._append(head, body + entry.mesh)
 
     def add_probe(self, number: int, drawn: tuple[Drawn, ...]) -> None:
@@ -197,10 +193,8 @@ class Archive:
         if "text" in head["outcome"]:
             outcome = Failure(**head["outcome"])
         else:
-            fields = head["outcome"]
-            cut, cells = fields["features"], fields["cells"]
-            features = np.frombuffer(data[:cut], "<f4").copy()
-            outcome = Outcome(**{**fields, "features": features, "cells": data[cut : cut + cells]})
+            features = np.frombuffer(data, "<f4", head["outcome"]["features"] // 4).copy()
+            outcome = Outcome(**{**head["outcome"], "features": features})
         entry = Entry(
             **{
                 **head,

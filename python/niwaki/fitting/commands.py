@@ -19,7 +19,7 @@ from typing import Any
 
 from niwaki.errors import FileError, InputError
 from niwaki.fitting.generator import Called, Generator, Numbers
-from niwaki.fitting.space import Space
+from niwaki.search.space import Space
 from niwaki.targets import reading
 from niwaki.words.distributions import DiscreteUniform, Uniform
 

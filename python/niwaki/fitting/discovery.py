@@ -12,7 +12,7 @@ from typing import Any
 
 from niwaki.errors import InputError
 from niwaki.fitting.draws import Drawn
-from niwaki.fitting.space import Parameter, Space
+from niwaki.search.space import Parameter, Space
 from niwaki.words.distributions import DiscreteUniform, Uniform
 
 #: Runs from which the parameters are taken.

@@ -35,9 +35,9 @@ from niwaki.fitting.loading import generator_of
 from niwaki.fitting.loop import Failure, FitLoop, Point
 from niwaki.fitting.pool import Caller, Here, Limit, Reply, Workers
 from niwaki.fitting.result import FitResult, scene_of_arrays
-from niwaki.fitting.space import Parameter, Space
 from niwaki.search.checks import fresh
 from niwaki.search.data import Writer, text_hash
+from niwaki.search.space import Parameter, Space
 from niwaki.search.warnings import SearchWarning, size_warning
 from niwaki.targets.sketches import Score, match_volume
 from niwaki.targets.target import Target

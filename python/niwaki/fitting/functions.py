@@ -32,8 +32,8 @@ from typing import Annotated, Any, Literal, get_args, get_origin
 from niwaki.errors import InputError
 from niwaki.fitting.draws import Drawn, Draws
 from niwaki.fitting.generator import Called, Generator, Numbers
-from niwaki.fitting.space import Parameter, Space
 from niwaki.inputs.modules import public, run_file
+from niwaki.search.space import Parameter, Space
 from niwaki.words.distributions import Bernoulli, DiscreteUniform, Distribution, Uniform
 
 

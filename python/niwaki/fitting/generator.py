@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from niwaki.fitting.draws import Drawn
-from niwaki.fitting.space import Space
+from niwaki.search.space import Space
 
 #: The point of a generator as plain numbers, by name.
 Numbers = Mapping[str, float]

@@ -20,7 +20,7 @@ from niwaki import _engine
 from niwaki.draw.scene import Scene
 from niwaki.errors import InputError
 from niwaki.errors.settings import bad, real, shown
-from niwaki.fitting.features import Differences, differences, log_score
+from niwaki.targets.differences import Differences, differences, log_score
 from niwaki.targets.fit import fit
 from niwaki.targets.sketches import Score
 
@@ -103,8 +103,6 @@ class Outcome:
         The fit to the first target: shares of the target and of the scene.
     numbers : dict
         Measures: those of the sketches, and the numbers of the goal.
-    cells : bytes
-        The cells of the target's grid that the scene fills, packed (`numpy.packbits`); empty without a grid.
     """
 
     score: float
@@ -112,7 +110,6 @@ class Outcome:
     covered: float | None = None
     outside: float | None = None
     numbers: dict[str, float] = field(default_factory=dict)
-    cells: bytes = b""
 
 
 @dataclass(frozen=True)

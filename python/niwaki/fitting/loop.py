@@ -20,7 +20,7 @@ from niwaki import _engine
 from niwaki.errors.settings import bad, count
 from niwaki.fitting.answers import Answer, Answers
 from niwaki.fitting.goals import Goal, Outcome, scene_of
-from niwaki.fitting.space import Space
+from niwaki.search.space import Space
 from niwaki.targets.sketches import Score
 
 

@@ -24,8 +24,8 @@ from niwaki.errors import InputError
 from niwaki.fitting.commands import SHOWN, levels, read, space_of_levels, text_of
 from niwaki.fitting.customizer import slots, written
 from niwaki.fitting.generator import Called, Generator, Numbers
-from niwaki.fitting.space import Space
 from niwaki.inputs import text_of as file_text
+from niwaki.search.space import Space
 
 #: The library and the program that evaluate a file.
 LIBRARY, PROGRAM = "openscad_evaluator", "openscad"

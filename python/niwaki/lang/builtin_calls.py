@@ -276,6 +276,9 @@ def _named(body: Body, head: str, args: Sequence[Expr], node: ast.AST) -> Form:
 def choose(body: Body, node: ast.Call) -> Expr:
     """Lower `choose(values, weights)` to the draw of an index; the site has the options if they may be words."""
     options = node.args[0] if node.args else _keyword(node, "values")
+    if len(node.args) > 1 and (len(node.args) > 2 or isinstance(node.args[1], ast.Constant)):
+        written = ", ".join(body.span(arg).text for arg in node.args)
+        body.refuse("options-as-arguments", node, cure=f"choose([{written}])")
     table = _table(body, options) if options is not None else None
     weights: Expr | None
     if table is not None and len(node.args) + len(node.keywords) == 1:
@@ -360,6 +363,7 @@ def arrayed(body: Body, node: ast.Call) -> Expr:
 def _in_each(body: Body, node: ast.Call, word: str, frames: Expr) -> Expr:
     """Call a function in each frame; its arguments are computed once."""
     frames = body.kept(frames)
+    _no_word(body, node.args[1], node.args[2:])
     call = caller(body, node.args[1])
     args = [body.kept(value) for value in expressions(body, node.args[2:])]
 
@@ -380,11 +384,21 @@ def _at_least(body: Body, node: ast.Call, name: str, count: int, expected: str) 
     no_keywords(body, node, name)
 
 
+def _no_word(body: Body, function: ast.expr, args: Sequence[ast.expr]) -> None:
+    """Refuse a word that is a site of its own as the function, and show the lambda that calls it."""
+    value = underlying(static(body, function))
+    if hashable(value) and value in vocabulary.ALL_WORDS and value not in vocabulary.OPERATIONS:
+        name = body.span(function).text
+        inner = ", ".join(body.span(arg).text for arg in args)
+        body.refuse("word-as-value", function, name=name, cure=f"lambda: {name}({inner})")
+
+
 def _directly(
     body: Body, node: ast.Call, heads: tuple[str, str], function: ast.expr, args: Sequence[ast.expr]
 ) -> Expr:
     """Lower the call of a function argument, by the first head if the function is known, else as a value."""
     known, value_head = heads
+    _no_word(body, function, args)
     if isinstance(function, ast.Lambda):
         keep_defaults(body, body.scopes.of[function])
         return nested(body, node, body.scopes.of[function], known, args, [])

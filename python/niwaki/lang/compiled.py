@@ -13,7 +13,7 @@ from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
 from niwaki.errors.messages import MESSAGES
 from niwaki.errors.settings import MAX_MEMORY, MAX_STEPS, bad, count, refused
-from niwaki.lang import vocabulary
+from niwaki.lang import lookup, vocabulary
 from niwaki.lang.blame import Blame, marked
 from niwaki.lang.core import Core
 from niwaki.lang.labelling import labels_of
@@ -80,7 +80,7 @@ def task(
     if not hold:
         return ready
     try:
-        with translated(model.name):
+        with translated(model.name, model=model):
             return ready.holding(dict(hold))
     except (TypeError, OverflowError) as error:
         expected = "numbers, truth values and lists of numbers, by address"
@@ -174,9 +174,15 @@ def _error(
     if fault.code == "no-normal-fits":
         return InputError(fault.code, name=name, found=fault.message)
     if fault.code == "no-address":
-        return InputError("no-address", pattern=fault.subject, name=name, nearest=fault.help or "none")
-    if fault.code in ("no-part", "many-parts"):
-        return InputError(fault.code, pattern=fault.subject, name=name, parts=fault.help)
+        nearest = _nearest(fault.help)
+        if model is not None and model.labels.tables:
+            known = lookup.choices(model.labels)
+            nearest = lookup.nearest(model.labels, fault.subject, known, "choice")
+        return InputError("no-address", pattern=fault.subject, name=name, nearest=nearest)
+    if fault.code == "no-part":
+        return InputError("no-part", pattern=fault.subject, name=name, parts=_nearest(fault.help))
+    if fault.code == "many-parts":
+        return InputError("many-parts", pattern=fault.subject, name=name, parts=fault.help)
     if fault.kind == "no-start":
         if fault.tries == 0:
             constraint = "the score of this run is minus infinity"
@@ -205,6 +211,13 @@ def _error(
     if fault.code not in MESSAGES or MESSAGES[fault.code].names - {"detail"}:
         return refused(fault, {}, {})
     return InputError(fault.code, detail=fault.message)
+
+
+def _nearest(help: str | None) -> str:
+    """Return the end of a message about a pattern, from the engine's list of the nearest addresses or its text."""
+    if help is None or not help.startswith("`"):
+        return help or "there is none"
+    return f"the nearest {'are' if ', ' in help else 'is'} {help}"
 
 
 #: Advice for a constraint without any of its own.

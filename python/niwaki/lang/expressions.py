@@ -115,7 +115,7 @@ def outside(body: Body, node: ast.expr, value: Any) -> Expr:
     if hashable(value) and (value in vocabulary.NOT_IN_A_MODEL or value in vocabulary.FORBIDDEN_BUILTINS):
         forbidden(body, node, value)
     if (hashable(value) and value in function) or is_record_class(value):
-        body.refuse("word-as-value", node, name=text)
+        body.refuse("word-as-value", node, name=text, cure=f"lambda x: {text}(x)")
     if isinstance(value, ModuleType):
         body.refuse("module-as-value", node, name=text)
     return with_place(body.program.constant(value, body.span(node), text), body, node)

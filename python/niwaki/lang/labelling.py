@@ -51,7 +51,10 @@ class _Maker:
         tables: list[Table] = [
             {
                 ("end" if entry.kind == "part" else entry.kind, entry.component): Site(
-                    entry.text, -1 if entry.inside is None else entry.inside, entry.joins
+                    entry.text,
+                    -1 if entry.inside is None else entry.inside,
+                    entry.joins,
+                    entry.kind == "part",
                 )
                 for entry in entries
             }

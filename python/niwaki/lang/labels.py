@@ -17,7 +17,8 @@ An address of a function that only the run knows, or of a program without a sour
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections import deque
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from niwaki.lang.nouns import singular, words
@@ -53,11 +54,14 @@ class Site:
         The number of the callee's activation, or of the loop's.
     joins : mapping
         For a loop: labels, without the number, of an iteration together with the component after it.
+    is_part : bool
+        Whether the site is an `emit`.
     """
 
     text: str
     inside: int = UNKNOWN
     joins: Mapping[str, str] = field(default_factory=dict)
+    is_part: bool = False
 
 
 @dataclass(frozen=True)
@@ -108,14 +112,17 @@ class Labels:
 
     def steps(self, address: str) -> list[str]:
         """Return the steps of a label, outermost first."""
-        return [
-            step.text if step.number is None else f"{step.text} {step.number}"
-            for step in self._steps(address)
-        ]
+        return [_text(step) for step in self._steps(address)]
 
     def kind(self, address: str) -> str:
         """Return the last step without the number of an iteration: the same for all parts of a loop."""
         return self._steps(address)[-1].text
+
+    def place(self, place: str) -> str:
+        """Return the label of a place, an address without numbers of iterations; with "/" at its end, of calls."""
+        address = place.removesuffix("/").replace("[]", "[0]")
+        label = _path([step.text for step in self._steps(address)])
+        return f"{label}, number" if place.endswith("/") else label
 
     def tree(self, addresses: Iterable[str]) -> list[tuple[int, str, str, bool]]:
         """Return the steps of addresses and of the calls around them, each once, those around before those inside.
@@ -133,11 +140,72 @@ class Labels:
             for address in reversed(waiting):
                 head, _, component = address.rpartition("/")
                 step = self._step(places[numbers[head]], component, address is whole)
-                text = step.text if step.number is None else f"{step.text} {step.number}"
-                rows.append((numbers[head], component, text, step.is_joined))
+                rows.append((numbers[head], component, _text(step), step.is_joined))
                 numbers[address] = len(rows) - 1
                 places[numbers[address]] = step.place
         return rows
+
+    def is_possible(self, address: str) -> bool:
+        """Return whether a run may have a choice at this address, as far as the source tells."""
+        place = self._start()
+        *calls, last = address.split("/")
+        for component in calls:
+            loop, table = (
+                _LOOP.fullmatch(component),
+                self.tables[place.inside] if place.inside != UNKNOWN else None,
+            )
+            key = ("call", component) if loop is None else ("loop", _loop_key(loop))
+            if table is None or _MEMO.fullmatch(component) is not None:
+                return True
+            if key not in table:
+                return False
+            place = self._step(place, component, False).place
+        if place.inside == UNKNOWN:
+            return True
+        site = self.tables[place.inside].get(("end", last))
+        return site is not None and not site.is_part
+
+    def walk(
+        self, iterations: Iterable[int], enters: Callable[[Sequence[str], int], bool], limit: int
+    ) -> tuple[list[tuple[str, list[str]]], bool]:
+        """List addresses that choices can have, short ones first, with the steps of their labels.
+
+        Parameters
+        ----------
+        iterations
+            The numbers of iterations, from 0, for every loop.
+        enters
+            Whether to enter a call or an iteration: of the steps of its label, and of the times that the path was in
+            its function before.
+        limit
+            The most addresses, and the most calls that wait.
+
+        Returns
+        -------
+        The addresses with their steps, and whether they are all.
+        """
+        numbers, rows = sorted(set(iterations)), list[tuple[str, list[str]]]()
+        waiting = deque([("", self._start(), list[str](), list[int]())])
+        while waiting:
+            prefix, place, above, entered = waiting.popleft()
+            if place.inside == UNKNOWN:
+                continue
+            for (kind, component), site in self.tables[place.inside].items():
+                if site.is_part:
+                    continue
+                names = (
+                    [component.replace("[]", f"[{n}]") for n in numbers] if kind == "loop" else [component]
+                )
+                for name in names:
+                    step = self._step(place, name, kind == "end")
+                    steps = [*(above[:-1] if step.is_joined else above), _text(step)]
+                    if kind == "end":
+                        rows.append((prefix + name, steps))
+                    elif enters(steps, entered.count(site.inside)):
+                        waiting.append((f"{prefix}{name}/", step.place, steps, [*entered, site.inside]))
+            if len(rows) > limit or len(waiting) > limit:
+                return rows[:limit], False
+        return rows, True
 
     def site(self, function: str, component: str) -> str:
         """Return the label of a choice by its function, with the loops around it (`wings/while#0`), in all its runs."""
@@ -197,7 +265,7 @@ class Labels:
         return next((table[kind, component] for kind in kinds if (kind, component) in table), None)
 
     def _loop(self, inside: int, loop: re.Match[str]) -> Site:
-        key = "loop", f"{loop[1]}[]{loop[3] or ''}"
+        key = "loop", _loop_key(loop)
         if inside != UNKNOWN and key in self.tables[inside]:
             return self.tables[inside][key]
         return Site("step" if is_anonymous(loop[1]) else words(loop[1]))
@@ -212,14 +280,27 @@ class Labels:
         return self.functions.get(component.partition("#")[0].rpartition(".")[2], UNKNOWN)
 
 
+def _text(step: _Step) -> str:
+    return step.text if step.number is None else f"{step.text} {step.number}"
+
+
+def _loop_key(loop: re.Match[str]) -> str:
+    """Return the component of a loop in tables, without the number of the iteration."""
+    return f"{loop[1]}[]{loop[3] or ''}"
+
+
 def _path(steps: Sequence[str]) -> str:
     text = SEPARATOR.join(steps)
     return text[:1].upper() + text[1:]
 
 
+#: Loops of words and built-ins that call a function for each item.
+_CALLERS = ("while", "map", "filter", "sorted", "min", "max", "mirrored", "arrayed")
+
+
 def is_anonymous(name: str) -> bool:
     """Return whether the name of a loop says nothing to a reader: `i`, `_`, `while`, `map`."""
-    return len(name) < 2 or name.startswith("_") or name in ("while", "map", "filter", "sorted", "min", "max")
+    return len(name) < 2 or name.startswith("_") or name in _CALLERS
 
 
 def _plain(component: str) -> str:

@@ -127,7 +127,8 @@ class Program:
         if isinstance(value, FunctionType):
             if is_library(value):
                 code = "word-as-value" if value.__module__.startswith("niwaki.words") else "library-function"
-                raise ModelError(code, used_at, name=name if name.isidentifier() else value.__name__)
+                text = name if name.isidentifier() else value.__name__
+                raise ModelError(code, used_at, name=text, cure=f"lambda x: {text}(x)")
             return Form("closure", [literal(self.unit(value, used_at).name)])
         if isinstance(value, Distribution):
             parts = [self.constant(part, used_at, name) for part in value.parameters]

@@ -57,6 +57,10 @@ class Purpose:
 UNUSED = Purpose()
 
 
+#: The words that call a function, and its place among the arguments.
+FUNCTION_PLACES = {words.future: 0, words.place: 1, words.mirrored: 1, words.arrayed: 1}
+
+
 @dataclass(eq=False)
 class Entry:
     """A site while labels are made."""
@@ -282,11 +286,12 @@ class Reader:
             self.argument(keyword.value, name if name in names or not names else "", value, purpose)
         if (node, "loop") in components:
             key = next((keyword.value for keyword in node.keywords if keyword.arg == "key"), None)
-            function = node.args[0] if value in (map, filter) and node.args else key
+            function = key if key is not None else _function_argument(node, value)
             if function is not None:
                 loop = self.loop(node, components[node, "loop"])
                 outer = self.inner(loop)
-                self.add("call", components[node, "call"], node, self.callee(function))
+                entry = self.add("call", components[node, "call"], node, self.callee(function))
+                entry.text = given.of(node) or entry.text
                 self.here, self.arms, self.scope = outer
         elif node in components and value not in SCORES and value is not words.mem:
             self.site(node, value, purpose)
@@ -302,7 +307,7 @@ class Reader:
             entry = self.add("part", component, node, None)
             entry.text = text or (spoken(name) if name else self.shown(node.args))
         else:
-            function = node.args[0] if value is words.future and node.args else node.func
+            function = _function_argument(node, value) or node.func
             entry = self.add("call", component, node, self.callee(function))
             name = component.partition("#")[0]
             entry.text = text or PLAIN.get(name, spoken(name))
@@ -337,9 +342,10 @@ class Reader:
 
     def parameters(self, node: ast.Call, value: Any) -> Sequence[str]:
         """Return the names of a callee's parameters; none for built-ins and for what only the run knows."""
-        if value is words.future:
-            first = node.args[0] if node.args else None
-            return ["", *self._parameters(first, self.value(first))] if first is not None else []
+        function = _function_argument(node, value) if value in FUNCTION_PLACES else None
+        if function is not None:
+            skipped = [""] * (1 + FUNCTION_PLACES[value])
+            return [*skipped, *self._parameters(function, self.value(function))]
         return self._parameters(node.func, value)
 
     def _parameters(self, node: ast.expr, value: Any) -> Sequence[str]:
@@ -422,3 +428,9 @@ def _loop_name(target: ast.expr) -> str:
     """Return the first name of a loop's target that says something, else the first name."""
     names = [part.id for part in ast.walk(target) if isinstance(part, ast.Name)]
     return next((name for name in names if not is_anonymous(name)), names[0] if names else "")
+
+
+def _function_argument(node: ast.Call, value: Any) -> ast.expr | None:
+    """Return the function that a word or a built-in is given to call, or None."""
+    place = 0 if value in (map, filter) else FUNCTION_PLACES.get(value) if hashable(value) else None
+    return node.args[place] if place is not None and len(node.args) > place else None

@@ -38,7 +38,16 @@ from niwaki.lang.names import MISSING, Namespace, hashable, is_library
 from niwaki.lang.scope import Scope, Scopes, Variable, default_expressions
 
 #: Words beside those that draw from a family whose calls can have a label.
-LABELLED = (words.sample, words.choose, words.emit, words.future, words.infer)
+LABELLED = (
+    words.sample,
+    words.choose,
+    words.emit,
+    words.future,
+    words.infer,
+    words.place,
+    words.mirrored,
+    words.arrayed,
+)
 
 CALLS_A_FUNCTION = {
     map: "map",

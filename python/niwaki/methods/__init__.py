@@ -7,6 +7,7 @@ chains      Metropolis-Hastings
 gradients   Hamiltonian Monte Carlo
 normals     variational inference
 improve     a search for the best run, by several of these
+emulate     a search for the best run in few runs, by an emulator of its scene
 order       learned orders of futures
 guide       a network that draws choices in place of the prior
 kernels     Markov kernels, for chains
@@ -29,6 +30,7 @@ from niwaki.methods.direct import (
     importance,
     rejection,
 )
+from niwaki.methods.emulate import Emulate, emulate
 from niwaki.methods.gradients import Hmc, Nuts, explore, hmc, nuts
 from niwaki.methods.guide import Guide
 from niwaki.methods.improve import Improve, improve
@@ -46,6 +48,7 @@ from niwaki.methods.particles import (
 
 __all__ = [
     "Ais",
+    "Emulate",
     "EnumerateAll",
     "Forward",
     "FutureOrder",
@@ -63,6 +66,7 @@ __all__ = [
     "Vi",
     "ais",
     "at_least_one",
+    "emulate",
     "enumerate_all",
     "explore",
     "forward",

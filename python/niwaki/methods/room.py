@@ -13,6 +13,7 @@ from niwaki.errors.memory import check_room
 from niwaki.methods.annealed import Ais
 from niwaki.methods.chains import Mh
 from niwaki.methods.direct import Forward, Importance, Rejection
+from niwaki.methods.emulate import Emulate
 from niwaki.methods.gradients import Hmc, Nuts
 from niwaki.methods.improve import Improve
 from niwaki.methods.kernels import Kernel
@@ -61,6 +62,8 @@ def _needs(method: Method) -> Iterator[Need]:
             yield "particles", method.particles, PARTICLE, "particle"
             yield "regrow", method.regrow, PARTICLE, "particle"
             yield "diverse", method.diverse or 1, PARTICLE, "result"
+        case Emulate():
+            yield "evaluations", method.evaluations, RUN, "evaluation"
         case Mh():
             yield "chains", method.chains, CHAIN, "chain"
         case Hmc() | Nuts():

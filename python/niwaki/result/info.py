@@ -317,6 +317,34 @@ class Round(NamedTuple):
 
 
 @dataclass(frozen=True)
+class EmulateInfo(Info):
+    """Statistics of `emulate`; of several results, of the search with the best one.
+
+    Attributes
+    ----------
+    evaluations : int
+        The number of runs, with those that were invalid.
+    choices : int
+        The number of choices that were searched.
+    best_at : int
+        The number of the best run, from 0.
+    searches : int
+        The number of searches for results that differ.
+    """
+
+    evaluations: int = 0
+    choices: int = 0
+    best_at: int = 0
+    searches: int = 1
+
+    def __str__(self) -> str:
+        """The number of runs, and which was the best."""
+        return (
+            f"emulator: {self.evaluations} runs of {self.choices} choices; the best is run {self.best_at + 1}"
+        )
+
+
+@dataclass(frozen=True)
 class ImproveInfo(Info):
     """Statistics of `improve`; of several results, of the search with the best one. Its text describes the rounds.
 
@@ -328,6 +356,11 @@ class ImproveInfo(Info):
         The population that lived, and then each round.
     searches : int
         The number of searches for results that differ.
+    kinds : tuple of dict
+        For each of several results what tells it apart: a value for each place. A place is an address without the
+        numbers of iterations; a place that ends in "/" is that of a call, and its value the number of calls.
+    niches : int
+        The number of kinds that the search for several results has met and keeps.
     losses : Losses
         The particles that became impossible in the population that lived.
     seconds : tuple of float
@@ -337,6 +370,8 @@ class ImproveInfo(Info):
     attempts: tuple[Attempt, ...] = ()
     rounds: tuple[Round, ...] = ()
     searches: int = 1
+    kinds: tuple[dict[str, str], ...] = ()
+    niches: int = 0
     losses: Losses = Losses()  # noqa: RUF009
     seconds: tuple[float, ...] = field(default=(), compare=False)
 
@@ -345,6 +380,7 @@ class ImproveInfo(Info):
         object.__setattr__(self, "losses", _losses(self.losses))
         object.__setattr__(self, "attempts", tuple(Attempt(*fields) for fields in self.attempts))
         object.__setattr__(self, "rounds", tuple(Round(*fields) for fields in self.rounds))
+        object.__setattr__(self, "kinds", tuple(dict(kind) for kind in self.kinds))
 
     def __str__(self) -> str:
         """The steps of the search, with the seconds and the best log score after them."""
@@ -382,6 +418,7 @@ INFOS: dict[str, type[Info]] = {
     "particle_gibbs": SweepInfo,
     "pimh": SweepInfo,
     "improve": ImproveInfo,
+    "emulate": EmulateInfo,
 }
 
 

@@ -18,6 +18,7 @@ from niwaki import _engine, draw, targets
 from niwaki.draw.scene import Scene
 from niwaki.errors import InputError
 from niwaki.errors.settings import bad
+from niwaki.lang import lookup
 from niwaki.lang.compiled import LOOSEN
 from niwaki.lang.models import Model
 from niwaki.methods import Method, Mh, at_least_one
@@ -365,13 +366,13 @@ class Result(Sequence[Sample]):
         possible = [(s, float(w)) for s, w in zip(self.samples, self.weights, strict=True) if w > 0.0]
         if not any(choice in sample.choices for sample, _ in possible):
             known = [*dict.fromkeys(address for sample, _ in possible for address in sample.choices)]
-            nearest = ", ".join(f"`{address}`" for address in _engine.nearest(choice, known))
-            raise InputError(
-                "no-address",
-                pattern=choice,
-                name=self.model.name,
-                nearest=nearest or "none: it has no choice",
-            )
+            named = lookup.matching(self.model.labels, choice, known)
+            if len(named) == 1:
+                return [(sample.choices.get(named[0]), weight) for sample, weight in possible]
+            if named:
+                raise lookup.ambiguous(self.model.labels, choice, named, self.model.name)
+            nearest = lookup.nearest(self.model.labels, choice, known, "choice")
+            raise InputError("no-address", pattern=choice, name=self.model.name, nearest=nearest)
         return [(sample.choices.get(choice), weight) for sample, weight in possible]
 
     def export(
@@ -384,21 +385,26 @@ class Result(Sequence[Sample]):
         """Draw the best scene into an image file."""
         return self.best.save(path, **settings)
 
-    def sheet(self, *, most: int | None = None, **settings: Any) -> Any:
+    def sheet(
+        self, *, most: int | None = None, captions: Sequence[str] | None = None, **settings: Any
+    ) -> Any:
         """All samples side by side, or the best so many; best first, each with its number, from 1, and its fit.
 
-        Where an image or a shadow is matched and no volume, they are seen from its camera.
+        Where an image or a shadow is matched and no volume, they are seen from its camera. `captions` has a text for
+        each sample in place of its number and its fit.
         """
         ranked = sorted(enumerate(self.samples, 1), key=lambda entry: -entry[1].log_score)[:most]
         scenes = [sample.scene for _, sample in ranked]
-        captions = [caption(sample, number) for number, sample in ranked]
+        texts = [
+            caption(sample, number) if captions is None else captions[number - 1] for number, sample in ranked
+        ]
         if self.score.window is not None:
             settings = {"window": self.score.window, **settings}
         elif self.score.target is None and self.score.views:
             settings = {**_settings_of_view(self.score.views[0]), **settings}
         if self.score.window is None:
             settings = {**self.score.surroundings, **settings}
-        return draw.sheet.sheet(scenes, captions, self.score.target, **settings)
+        return draw.sheet.sheet(scenes, texts, self.score.target, **settings)
 
     def _repr_png_(self) -> bytes | None:
         return self.best._repr_png_() if self.samples else None

@@ -119,7 +119,7 @@ class Sample:
     def label(self, address: str) -> str:
         """Return the name for people of a choice, a part, a call or an iteration: *Wing 1 › section 2 › width*.
 
-        Labels follow from the model's source, see the manual; only addresses can be typed.
+        Labels follow from the model's source, see the manual. `hold` knows them, too.
         """
         return self.search.model.labels.label(address)
 
@@ -144,7 +144,7 @@ class Sample:
     def _held(self, hold: parts.Hold) -> Mapping[str, Any]:
         """The values of held choices by address; patterns take the values of this run."""
         scene = [address for address, _ in self._trace.parts]
-        return parts.held(hold, self._free, scene, self.search.model.name)
+        return parts.held(hold, self._free, scene, self.search.model)
 
     @property
     def _free(self) -> dict[str, Any]:

@@ -1,3 +1,6 @@
+from .archives import Archive as Archive
+from .archives import archive as archive
+from .kinds import named as named
 from .checkpoint import Checkpoint as Checkpoint
 from .checks import fresh as fresh
 from .drag import Drag as Drag
@@ -7,6 +10,7 @@ from .drag.source import SourceChange as SourceChange
 from .entry import GUIDED as GUIDED
 from .entry import OF_IMPROVE as OF_IMPROVE
 from .entry import POWER as POWER
+from .entry import by_program as by_program
 from .entry import default_method as default_method
 from .entry import explain as explain
 from .entry import grow as grow
@@ -14,4 +18,6 @@ from .entry import grow_search as grow_search
 from .entry import run as run
 from .keeper import Stage as Stage
 from .request import Search as Search
+from .space import Parameter as Parameter
+from .space import Space as Space
 from .warnings import SearchWarning as SearchWarning

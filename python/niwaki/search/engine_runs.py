@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import time
+from collections import Counter
 from dataclasses import replace
+from math import inf
 
 from niwaki import _engine
+from niwaki.errors import InputError
 from niwaki.errors.memory import check_room
 from niwaki.errors.settings import bad
 from niwaki.errors.warned import warn
-from niwaki.lang.compiled import translated
+from niwaki.lang.compiled import LOOSEN, translated
 from niwaki.lang.models import as_model
-from niwaki.methods import Guide, Hmc, Method, Mh, Nuts, ParticleGibbs, Vi, at_least_one
+from niwaki.methods import Emulate, Guide, Hmc, Method, Mh, Nuts, ParticleGibbs, Vi, at_least_one
 from niwaki.methods.room import PARTICLE, check_method
 from niwaki.result import Result, Sample
 from niwaki.result.chains import MhInfo, Running
@@ -19,16 +22,21 @@ from niwaki.result.drawn import Drawn, DrawnInfo
 from niwaki.result.hmc import HmcInfo
 from niwaki.result.info import (
     INFOS,
+    EmulateInfo,
     ImproveInfo,
     Info,
     PopulationInfo,
 )
 from niwaki.result.invalid import Invalid
 from niwaki.result.normals import ViInfo
+from niwaki.result.parts import labelled_part
 from niwaki.result.progress import EngineWatch
 from niwaki.result.search_like import SearchLike
+from niwaki.search import emulated
 from niwaki.search.checks import check_polish, check_seed, check_threads
 from niwaki.search.keeper import Stage
+from niwaki.search.kinds import check_number, with_addresses
+from niwaki.search.ranges import translated_run
 from niwaki.search.warnings import SearchWarning, check_reach
 
 
@@ -66,9 +74,11 @@ def run_once(
         return run_trajectories(search, search.method, seed, threads, watch, start)
     if isinstance(search.method, Vi):
         return fit_normals(search, search.method, seed, threads, watch, start)
-    method, attached = engine_form(search.method)
+    if isinstance(search.method, Emulate):
+        return run_emulator(search, search.method, seed, watch)
+    method, attached = engine_form(with_addresses(search))
     counted, clock = search.task.uncounted(), Clock()
-    with translated(search.model.name, f"seed={seed}", model=search.model):
+    with translated_run(search, seed):
         runs, interrupted, counters = counted.search(
             method,
             seed,
@@ -80,7 +90,9 @@ def run_once(
         )
     info = INFOS.get(search.method.NAME, Info)(**counters)
     diverse = getattr(search.method, "diverse", None)
-    if diverse is not None:
+    if isinstance(info, ImproveInfo):
+        check_number(info, len(runs), diverse, interrupted)
+    elif diverse is not None:
         runs = distinct(runs, diverse, info)
     seconds = clock.read()
     if stage is not None:
@@ -111,20 +123,17 @@ class Clock:
         return time.perf_counter() - self._wall, time.process_time() - self._cpu
 
 
-def distinct(runs: list[_engine.Run], number: int, info: Info) -> list[_engine.Run]:
+def distinct(runs: list[_engine.Run], number: int, info: PopulationInfo) -> list[_engine.Run]:
     """The best runs that differ from one another; runs that did not end or are impossible are left out."""
     ended = [run for run in runs if run.has_ended and run.cause is None]
     ranked = sorted(ended, key=lambda run: -run.log_score)
     chosen = [ranked[place] for place in _engine.different(ranked, number)]
     if len(chosen) < number:
-        if isinstance(info, PopulationInfo):
-            count, cure = len(info.plan), "give more `populations`"
-            where = f"{count} population{'' if count == 1 else 's'}"
-        else:
-            count = info.searches if isinstance(info, ImproveInfo) else 1
-            cure = "give another `seed`, or accept that the model has few results"
-            where = f"{count} search{'' if count == 1 else 'es'}"
-        warn(f"only {len(chosen)} of {number} results in {where} differ; {cure}", SearchWarning)
+        populations = f"{len(info.plan)} population{'' if len(info.plan) == 1 else 's'}"
+        warn(
+            f"only {len(chosen)} of {number} results in {populations} differ; give more `populations`",
+            SearchWarning,
+        )
     return chosen
 
 
@@ -149,7 +158,7 @@ def run_chains(
     text, attached = engine_form(method)
     counted = search.task.uncounted()
     part = None if stage is None else stage.engine
-    with translated(search.model.name, f"seed={seed}", model=search.model):
+    with translated_run(search, seed):
         chains = _engine.Chains(
             counted, text, seed, attached=attached, start=start, threads=threads, checkpoint=part
         )
@@ -162,6 +171,39 @@ def run_chains(
     return result
 
 
+def run_emulator(search: SearchLike, method: Emulate, seed: int, watch: EngineWatch) -> Result:
+    """Search by an emulator; the best run, or several that differ."""
+    clock = Clock()
+    found = emulated.emulated(search, seed, watch)
+    order = sorted(range(len(found.runs)), key=lambda number: -found.runs[number].log_score)
+    if not order or found.runs[order[0]].log_score == -inf:
+        raise _impossible(found)
+    info = EmulateInfo(evaluations=found.evaluations, choices=found.choices, best_at=found.numbers[order[0]])
+    runs = [found.runs[number] for number in order]
+    runs = runs[:1] if method.diverse is None else distinct(runs, method.diverse, info)
+    seconds = clock.read()
+    samples = [Sample(run, search, seed, *seconds) for run in runs]
+    return Result(
+        search,
+        samples,
+        seed,
+        info=info,
+        interrupted=found.interrupted,
+        invalid=list(found.invalid),
+        seconds=seconds,
+    )
+
+
+def _impossible(found: emulated.Emulated) -> InputError:
+    """The error about a search without a possible run."""
+    causes = Counter(run.cause or "a choice outside of its range" for run in found.runs)
+    causes.update({f"`{entry.name}`": entry.runs for entry in found.invalid})
+    listed = ", ".join(f"{cause} ({count})" for cause, count in causes.most_common())
+    return InputError(
+        "everything-impossible", barrier="the end", count=causes.total(), constraint=listed, cure=LOOSEN
+    )
+
+
 def run_trajectories(
     search: SearchLike,
     method: Hmc | Nuts,
@@ -172,7 +214,7 @@ def run_trajectories(
 ) -> Result:
     """Run chains that follow the gradient."""
     counted, clock = search.task.uncounted(), Clock()
-    with translated(search.model.name, f"seed={seed}", model=search.model):
+    with translated_run(search, seed):
         chains = _engine.Trajectories(
             counted, method.text()[0], seed, start=start, threads=threads, watch=watch
         )
@@ -192,7 +234,7 @@ def fit_normals(
 ) -> Result:
     """Fit normals to the model's distribution."""
     counted, clock = search.task.uncounted(), Clock()
-    with translated(search.model.name, f"seed={seed}", model=search.model):
+    with translated_run(search, seed):
         normals = _engine.Normals(counted, method.text()[0], seed, start=start, threads=threads, watch=watch)
     info = ViInfo.of(search, seed, normals)
     result = _result_of_draws(counted, info, normals.interrupted, clock)
@@ -236,7 +278,8 @@ def regrow(
         expected = "a run that has ended"
         raise bad("sample", sample, expected, "more time or particles")
     clock, single = Clock(), replace(search, runs=1, keep="all", polish=None)
-    with translated(search.model.name, f"seed={seed}", model=search.model):
+    part = labelled_part(part, sample.choices, search.model)
+    with translated_run(search, seed):
         runs = search.task.regrow(sample._run, part, particles, power, seed, threads)
     seconds = clock.read()
     return Result(single, [Sample(run, single, seed, *seconds) for run in runs], seed, seconds=seconds)

@@ -7,19 +7,20 @@ on any number of threads. Ctrl-C stops a search, which then returns its results 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import fields
+from dataclasses import fields, replace
 from os import PathLike
 from typing import Any
 
 from niwaki import _engine
 from niwaki.errors import InputError
-from niwaki.errors.settings import MAX_MEMORY, MAX_STEPS
+from niwaki.errors.settings import MAX_MEMORY, MAX_STEPS, bad
 from niwaki.lang.compiled import arguments, task, translated
 from niwaki.lang.models import Model, as_model
-from niwaki.methods import Forward, Improve, Method, Mh, Smc
+from niwaki.methods import Emulate, Forward, Improve, Method, Mh, Smc
 from niwaki.result import Result
 from niwaki.result.parts import Hold
 from niwaki.result.progress import Watch
+from niwaki.search import emulated
 from niwaki.search.checkpoint import Checkpoint, resumed_seed
 from niwaki.search.checks import check_seed, fresh
 from niwaki.search.engine_runs import has_start, replay_choices
@@ -28,7 +29,11 @@ from niwaki.targets.sketches import FREE, Score, match_volume, no_self_intersect
 from niwaki.targets.target import Target
 
 #: The settings of `improve`, the default search of `grow`.
-OF_IMPROVE = ("rounds", "seconds", "diverse", "guide")
+OF_IMPROVE = ("rounds", "seconds", "diverse", "by", "within", "bins", "guide")
+#: The settings of `emulate`.
+OF_EMULATE = ("evaluations", "diverse")
+#: The engines of `grow`.
+ENGINES = ("auto", "sampler", "emulator")
 #: The settings of `smc`; with one of these, `grow` searches by one population.
 OF_SMC = (*(field.name for field in fields(Smc)), "guide")
 
@@ -121,6 +126,7 @@ def grow(
     *args: Any,
     score: Score | None = None,
     method: Method | None = None,
+    engine: str = "auto",
     voxel: float | None = None,
     sigma: float = 0.02,
     rule: str = "solid",
@@ -138,7 +144,9 @@ def grow(
     """Grow a model into a target, or to a high score of any kind: find the best run of a search, `runs` times.
 
     The default search is `improve`: it begins with a population of particles, and spends three times as much work on
-    growing parts of the best run again. Its result is no sample of the posterior: for a posterior give a `method`.
+    growing parts of the best run again. A model whose choices all come before its scene, or which calls a host function
+    before every part, is searched by `emulate`, an emulator of its scenes. Neither result is a sample of the posterior:
+    for a posterior give a `method`.
 
     Parameters
     ----------
@@ -147,16 +155,20 @@ def grow(
     target
         The volume to fill: a `Target`, or a file. It may be left out if `score` has something to match.
     args, kwargs
-        The model's arguments. `rounds`, `seconds`, `diverse` and `guide` are settings of the default search. With any
-        other setting of `smc` (particles, order, power, ...) the search is one population by these settings, with a
-        default `power` of 16 for ratio weights (1 for drawings). With a `guide` and no other setting of the default
-        search it is one population, too, by default of 50 particles with tempered resampling.
+        The model's arguments. `rounds`, `seconds`, `diverse`, `by`, `within`, `bins` and `guide` are settings of the
+        default search. With any other setting of `smc` (particles, order, power, ...) the search is one population by
+        these settings, with a default `power` of 16 for ratio weights (1 for drawings). With a `guide` and no other
+        setting of the default search it is one population, too, by default of 50 particles with tempered resampling.
     score
         Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`. They multiply
         `no_self_intersection(rule)` and, if there is a target, `match_volume(target, voxel, sigma)`. Drawings and
         scores with a `no_self_intersection` of their own have no other.
     method
         A method in place of these settings.
+    engine
+        "auto": the program decides, never a clock; "sampler": `improve` or `smc`; "emulator": `emulate`, with
+        `evaluations` runs. `Result.search.method` and run.json have what was chosen. Settings of `improve` or `smc`
+        choose the sampler.
     voxel, sigma
         As for `match_volume`.
     rule
@@ -182,6 +194,7 @@ def grow(
         *args,
         score=score,
         method=method,
+        engine=engine,
         voxel=voxel,
         sigma=sigma,
         rule=rule,
@@ -202,6 +215,7 @@ def grow_search(
     *args: Any,
     score: Score | None = None,
     method: Method | None = None,
+    engine: str = "auto",
     voxel: float | None = None,
     sigma: float = 0.02,
     rule: str = "solid",
@@ -215,7 +229,9 @@ def grow_search(
 ) -> Search:
     """Create the search that `grow` runs, from the same arguments."""
     model = as_model(model)
-    settings = {name: kwargs.pop(name) for name in (*OF_IMPROVE, *OF_SMC) if name in kwargs}
+    if engine not in ENGINES:
+        raise bad("engine", engine, " or ".join(f'"{name}"' for name in ENGINES), '"auto"')
+    settings = {name: kwargs.pop(name) for name in (*OF_IMPROVE, *OF_SMC, *OF_EMULATE) if name in kwargs}
     if settings.get("guide", True) is None:
         del settings["guide"]
     if method is not None and settings:
@@ -235,11 +251,12 @@ def grow_search(
         product *= match_volume(target, voxel, sigma)
     elif len(product.asks) == (0 if is_free else 1):
         raise InputError("no-target", name=model.name)
-    return Search(
+    of_sampler = {name: value for name, value in settings.items() if name != "evaluations"}
+    search = Search(
         model,
         tuple(arguments(model, args, kwargs)),
         score=product,
-        method=default_method(settings, 1.0 if is_drawing else POWER) if method is None else method,
+        method=default_method(of_sampler, 1.0 if is_drawing else POWER) if method is None else method,
         seed=fresh(seed),
         hold=hold,
         runs=runs,
@@ -248,6 +265,51 @@ def grow_search(
         max_steps=max_steps,
         max_memory=max_memory,
     )
+    return _by_engine(search, engine, settings, method is None)
+
+
+def _by_engine(search: Search, engine: str, settings: Mapping[str, Any], is_free: bool) -> Search:
+    """Return the search by the engine that was asked for, or for "auto" by the one that suits the program.
+
+    Parameters
+    ----------
+    search
+        The search by the sampler.
+    engine, settings
+        The engine, and the settings of a method.
+    is_free
+        Whether no method was given.
+    """
+    if engine == "emulator" or "evaluations" in settings:
+        others = [name for name in settings if name not in OF_EMULATE]
+        wrong = "" if is_free else "method"
+        wrong = wrong or ("engine" if engine == "sampler" else next(iter(others), ""))
+        if wrong:
+            found = engine if wrong == "engine" else settings.get(wrong, search.method.NAME)
+            raise InputError(
+                "bad-setting",
+                name=wrong,
+                found=repr(found),
+                expected='nothing of the sampler together with `evaluations` or `engine="emulator"`',
+                suggestion="only one of the two",
+            )
+        emulated.check(search)
+        return replace(search, method=Emulate(**settings))
+    return by_program(search, settings) if engine == "auto" and is_free else search
+
+
+def by_program(search: Search, settings: Mapping[str, Any]) -> Search:
+    """Return the search of a model by the method that suits its program: itself, or `emulate` with its settings.
+
+    Parameters
+    ----------
+    search
+        The search by the sampler.
+    settings
+        The settings of a method that a person gave; with others than `diverse` the sampler stays.
+    """
+    is_open = set(settings) <= {"diverse"} and emulated.suits(search)
+    return replace(search, method=Emulate(**settings)) if is_open else search
 
 
 def default_method(settings: Mapping[str, Any], power: float = POWER) -> Method:

@@ -144,7 +144,7 @@ class Search:
     @cached_property
     def held(self) -> dict[str, Any]:
         """The values of held choices, by address."""
-        return dict(parts.held(self.hold or {}, self.choices, (), self.model.name))
+        return dict(parts.held(self.hold or {}, self.choices, (), self.model))
 
     @cached_property
     def task(self) -> _engine.Task:

@@ -17,8 +17,10 @@
 | `formats.py` | the formats in which a result is written |
 | `grow.py` | `niwaki grow`: a search, written to a folder |
 | `guide.py` | `niwaki guide`: training of a guide, and a report about one |
+| `init.py` | `niwaki init`: a folder to begin with |
 | `letters.py` | `niwaki letters`: a text in vines or lightning |
 | `main.py` | the program: streams, errors, exit codes |
+| `mcp.py` | `niwaki mcp`: the studio's messages as tools for programs |
 | `models.py` | `niwaki models`: the gallery |
 | `origin.py` | `--from`, `--hold`, `--reroll`: a new search from an earlier result |
 | `pictures.py` | the pictures of a result |
@@ -26,7 +28,9 @@
 | `references.py` | a model by its name or its file |
 | `replay.py` | `niwaki replay`: a stored result again, in any format |
 | `replay_changed.py` | `niwaki replay --anyway`: a stored result, with a model that has changed |
+| `reports.py` | reports on a model and its runs, as values |
 | `request.py` | the search that the flags of `grow` describe |
+| `requirements.py` | requirements beside a model, which results have to keep |
 | `results.py` | a folder of results: run.json and the files beside it |
 | `resume.py` | `--resume`: a search that was stopped or killed |
 | `run_files.py` | run.json: a search and its runs as a file |

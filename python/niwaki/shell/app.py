@@ -13,6 +13,7 @@ import typer
 
 #: The commands and their help. The module of a command is loaded when the command is used.
 COMMANDS = {
+    "init": "Write a folder to begin with: a model, its target, requirements, a test.",
     "models": "List the gallery: name, how to run it, target, title.",
     "show": "Draw runs of a model side by side, with no target.",
     "grow": "Grow a model into its target.",
@@ -25,6 +26,7 @@ COMMANDS = {
     "letters": "Write a text in vines or lightning.",
     "guide": "Train a guide for a model, or show what a guide sees.",
     "studio": "Open a page in the browser: search, hold parts, grow the rest again.",
+    "mcp": "Serve the studio's messages as tools (MCP) to a program that writes models.",
     "explain": "Draw which calls of a model each strategy runs again for one proposal.",
     "doctor": "Report versions, the machine and optional packages, and test the core.",
 }

@@ -5,14 +5,22 @@ from __future__ import annotations
 import sys
 import time
 from collections import Counter
-from typing import Annotated
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any
 
 import typer
 
 from niwaki import lang, shell, targets
-from niwaki.errors import InputError, ModelError
-from niwaki.shell import arguments, compare, controls
-from niwaki.shell.app import ModelName, app
+from niwaki.errors import InputError, ModelError, NiwakiError
+from niwaki.inputs.modules import modules
+from niwaki.result import Sample
+from niwaki.shell import arguments, compare, controls, reports, run_files, trust
+from niwaki.shell.app import Json, ModelName, app
+from niwaki.shell.references import ModelReference
+
+#: Runs without a target that are held against requirements, and the seed of the first.
+RUNS, SEED = 20, 1
 
 
 @app.command()
@@ -36,11 +44,23 @@ def check(
             "--target", metavar="FILE", help="A mesh to fill, with --try. Default: the model's target."
         ),
     ] = None,
+    run: Annotated[
+        Path | None,
+        typer.Option(
+            "--run",
+            metavar="RUN.JSON",
+            help="A result of the model; its best run is held against requirements.toml beside the model.",
+        ),
+    ] = None,
+    as_json: Json = False,
 ) -> None:
-    """Compile MODEL and report its functions and choices, with advice. Exit code 1: the model does not compile."""
+    """Compile MODEL and report its functions and choices, with advice and the requirements beside it.
+
+    Exit code 1: the model does not compile, or the result of --run does not keep its requirements.
+    """
     reference = shell.references.find(model)
     start = time.perf_counter()
-    arguments.read(reference.model, values, preset)
+    named = arguments.read(reference.model, values, preset)
     try:
         compiled = reference.model.core()
     except ModelError as error:
@@ -54,23 +74,33 @@ def check(
         print(program.disassemble(), end="")
     if core or bytecode:
         return
-    functions = [row for row in program.functions if "/" not in row[0]]
+    if as_json:
+        for flag, value in (("--try", other), ("--target", target)):
+            if value is not None:
+                raise InputError(
+                    "flags-exclude",
+                    flag="--json",
+                    other=flag,
+                    reason="a comparison of two versions is a text",
+                    cure="leave out one of the two",
+                )
+        described = report(reference, None if run is None else _run_of(run), named)
+        print(reports.as_json(described))
+        if any(row.holds is False for row in described.requirements):
+            raise typer.Exit(1)
+        return
+    described = report(reference, None if run is None else _run_of(run), named)
     print(f"{reference.name}: compiled in {1e3 * (lowered + program.seconds):.1f} ms")
-    print(f"  arguments   {arguments.described(reference.model) or 'none'}")
-    print(f"  constants   {len(compiled.constants)}")
-    print(f"  functions   {len(functions)}")
-    width = max(len(name) for name, _, _ in functions)
-    inner: Counter[str] = Counter()
-    for name, _, sites in program.functions:
-        outer, _, part = name.partition("/")
-        inner[outer] += sites if part else 0
-    for name, kind, sites in functions:
-        total = sites + inner[name]
-        sites_text = "pure" if kind == "pure" else f"{total} site{'' if total == 1 else 's'}"
-        print(f"    {name:<{width}}  {sites_text}")
-    print(f"  choices     {len(program.choices)}")
-    for name, component, line in program.choices:
-        print(f"    {name.split('/')[0]:<{width}}  {component:<20} line {line}")
+    print(f"  arguments   {described.arguments or 'none'}")
+    print(f"  constants   {described.constants}")
+    print(f"  functions   {len(described.functions)}")
+    width = max(len(row.name) for row in described.functions)
+    for function in described.functions:
+        sites = f"{function.sites} site{'' if function.sites == 1 else 's'}" if function.sites else "pure"
+        print(f"    {function.name:<{width}}  {sites}")
+    print(f"  choices     {len(described.choices)}")
+    for choice in described.choices:
+        print(f"    {choice.function:<{width}}  {choice.choice:<20} line {choice.line}")
     if other is not None:
         score = targets.asks.score(controls.terms({"target": target}, reference))
         if score.target is None:
@@ -80,5 +110,79 @@ def check(
     if target is not None:
         reason = "it is the target of both versions"
         raise InputError("flag-alone", flag="--target", other="`--try`", reason=reason)
-    for advice in lang.advice.advise(reference.model.function):
-        print(f"\n{advice}")
+    for row in described.requirements:
+        state = {True: "holds", False: "does not hold", None: ""}[row.holds]
+        print(f"  requires    {row.text}: {' '.join(filter(None, (state, f'({row.value})')))}")
+    for advice in described.advice:
+        print(f"\n{advice.text}")
+    if any(row.holds is False for row in described.requirements):
+        raise typer.Exit(1)
+
+
+def _run_of(place: Path) -> Sample:
+    """Replay the best run of a run.json; modules that this command has run may be called."""
+    data = run_files.load(place)
+    loaded = {module for module, _, _ in trust.hosts(data["search"]) if modules(module)}
+    return run_files.replayed(data, None, tuple(sorted(loaded)), place)
+
+
+def report(
+    reference: ModelReference, sample: Sample | None = None, values: Mapping[str, Any] | None = None
+) -> reports.CheckReport:
+    """Compile a model, and report on it.
+
+    Parameters
+    ----------
+    reference
+        The model.
+    sample
+        The run to hold against the requirements beside the model; when left out, runs without a target tell how
+        often each requirement holds.
+    values
+        Arguments of the model for these runs.
+
+    Raises
+    ------
+    ModelError
+        The model does not compile.
+    InputError
+        `bad-requirements`.
+    """
+    compiled, program = reference.model.core(), reference.model.program()
+    inner: Counter[str] = Counter()
+    for name, _, sites in program.functions:
+        outer, _, part = name.partition("/")
+        inner[outer] += sites if part else 0
+    return reports.CheckReport(
+        reference.name,
+        arguments.described(reference.model) or "",
+        len(compiled.constants),
+        [
+            reports.FunctionRow(name, 0 if kind == "pure" else sites + inner[name])
+            for name, kind, sites in program.functions
+            if "/" not in name
+        ],
+        [reports.ChoiceRow(name.split("/")[0], component, line) for name, component, line in program.choices],
+        [
+            reports.AdviceRow(advice.code, advice.span.line, str(advice))
+            for advice in lang.advice.advise(reference.model.function)
+        ],
+        _requirements(reference, sample, values or {}),
+    )
+
+
+def _requirements(
+    reference: ModelReference, sample: Sample | None, values: Mapping[str, Any]
+) -> list[reports.RequirementRow]:
+    """Hold a run against the requirements beside a model, or runs without a target."""
+    rules = shell.requirements.beside(reference)
+    if rules is None:
+        return []
+    if sample is not None:
+        return rules.judged(sample)
+    try:
+        runs = shell.show.prior_runs(reference.model, {**shell.show.start(reference), **values}, RUNS, SEED)
+    except NiwakiError:
+        # The model needs arguments, or no run is possible.
+        return rules.rows()
+    return rules.over(runs)

@@ -30,7 +30,7 @@ from niwaki.targets import asks
 
 #: The options of a goal: those of scenes in space.
 OPTIONS = (
-    *("target", "voxel", "sigma", "avoid", "floor", "within"),
+    *("target", "voxel", "sigma", "volume_weight", "avoid", "floor", "within"),
     *("match_image", "match_shadow", "camera", "weight_image", "weight", "light", "receiver"),
 )
 

@@ -6,7 +6,7 @@ import json
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -18,6 +18,7 @@ from niwaki import result as results
 from niwaki.errors import InputError
 from niwaki.errors.folders import held_folder
 from niwaki.errors.schema import fitted
+from niwaki.result import parts
 from niwaki.shares import percent
 from niwaki.shell import (
     controls,
@@ -26,6 +27,7 @@ from niwaki.shell import (
     origin,
     pictures,
     request,
+    requirements,
     resume,
     selection,
     settings,
@@ -59,7 +61,10 @@ def grow(
         ),
     ],
 ) -> None:
-    """Grow MODEL into its target. Writes best.glb (best.svg for a drawing), best.png, sheet.png and run.json."""
+    """Grow MODEL into its target. Writes best.glb (best.svg for a drawing), best.png, sheet.png and run.json.
+
+    Exit code 1: no result keeps requirements.toml beside MODEL.
+    """
     clock = Clock()
     if source.resume is not None:
         search, reference, contents, stored = resume.stopped_search(
@@ -93,7 +98,8 @@ def grow(
     style = reference.style or ("ink" if any(sketch in DRAWN for sketch in drawn) else None)
     files = formats.Files.of_flags(flags, style, single_file)
     with clock.part("target"):
-        hold = {**values, **(earlier.held if earlier else {})}
+        # A value is more definite than a pattern that matches its choice, too.
+        hold = {**(earlier.held if earlier else {}), **parts.held(values, None, (), reference.model)}
         if earlier is None or has_goals:
             search = request.search_of(
                 reference, asks, search_flags, method_settings, arguments, hold or None
@@ -134,10 +140,18 @@ def _run(
     clock: Clock,
     verbose: bool,
 ) -> nw.Result:
-    """Run the search, with a line about its progress."""
+    """Run the search, with a line about its progress, until results keep the requirements beside the model."""
+    rules = requirements.beside(reference)
+
+    def attempt(seed: int) -> nw.Result:
+        if seed == search.seed:
+            return search.run(threads=threads, progress=progress, checkpoint=checkpoint)
+        print(f"no result keeps {requirements.NAME}: another search with seed {seed}", file=sys.stderr)
+        return replace(search, seed=seed).run(threads=threads, progress=progress)
+
     with clock.part("search"):
         with progress_line(reference.name, verbose) as progress, resume.report_interrupt(checkpoint, "grow"):
-            return search.run(threads=threads, progress=progress, checkpoint=checkpoint)
+            return requirements.keeping(rules, attempt, search.seed)
 
 
 @contextmanager
@@ -205,14 +219,23 @@ def _end(
         else:
             with resume.remove_when_done(result, checkpoint):
                 _write(place, result, data, contents, clock)
+    rules = requirements.beside(reference)
+    unmet = [] if rules is None else rules.unmet(result.best)
     if out.as_json:
-        print(json.dumps({"runs": [shell.run_files.numbers(sample) for sample in result]}))
+        runs = [shell.run_files.numbers(sample) | {"seed": sample.seed} for sample in result]
+        if rules is not None:
+            runs = [run | {"unmet": rules.unmet(sample)} for run, sample in zip(runs, result, strict=True)]
+        print(json.dumps({"runs": runs}))
     elif place is not None:
         _summary(result, place, clock, verbose)
     if result.interrupted:
         if folder is not None:
             print(resume.interrupt_message(folder, "grow"), file=out.stream)
         raise typer.Exit(130)
+    if unmet:
+        for text in unmet:
+            typer.secho(f"required: {text}", fg="red", err=True)
+        raise typer.Exit(1)
 
 
 def _write(

@@ -1,7 +1,7 @@
 """The command line as a program: errors without a traceback, the streams, and the exit codes.
 
-Exit codes: 0 done, 1 a model that does not compile (`check`), 2 an error with a message, 130 stopped by Ctrl-C (after
-results are written).
+Exit codes: 0 done, 1 a model that does not compile (`check`) or that does not keep its requirements (`check`, `grow`),
+2 an error with a message, 130 stopped by Ctrl-C (after results are written).
 """
 
 from __future__ import annotations

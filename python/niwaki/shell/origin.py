@@ -21,6 +21,7 @@ from niwaki.errors import InputError
 from niwaki.errors.memory import check_room
 from niwaki.errors.settings import bad
 from niwaki.inputs.modules import modules
+from niwaki.lang import lookup
 from niwaki.lang.compiled import translated
 from niwaki.methods.room import RUN
 from niwaki.result import parts
@@ -36,9 +37,9 @@ Hold = Annotated[
     list[str] | None,
     typer.Option(
         "--hold",
-        metavar="PATTERN|ADDRESS=VALUE",
-        help="Hold the parts of the result of --from that match PATTERN, or hold a choice at VALUE. The rest is "
-        "searched. Repeatable.",
+        metavar="PATTERN|NAME=VALUE",
+        help="Hold the parts of the result of --from that match PATTERN, or hold the choice with the address or label "
+        "NAME at VALUE. The rest is searched. Repeatable.",
     ),
 ]
 Reroll = Annotated[
@@ -75,7 +76,8 @@ def read(flags: Flags) -> tuple[list[str], dict[str, Any]]:
     Raises
     ------
     InputError
-        `flags-exclude`: `--reroll` is there, too; `bad-setting`: a value cannot be read.
+        `flags-exclude`: `--reroll` is there, too; `bad-setting`: a value cannot be read; `held-twice`: two values
+        for one choice.
     """
     hold = flags.hold or ()
     if hold and flags.reroll:
@@ -86,16 +88,19 @@ def read(flags: Flags) -> tuple[list[str], dict[str, Any]]:
             reason="`--reroll` grows its parts again, `--hold` keeps its parts and searches the rest",
             cure="use only one of the two",
         )
-    values = {}
+    values: dict[str, Any] = {}
     for text in (text for text in hold if "=" in text):
-        address, _, value = text.rpartition("=")
+        address, _, written = text.rpartition("=")
+        value: Any = written
         try:
-            values[address] = literal_eval(value)
+            value = literal_eval(written)
         except (ValueError, SyntaxError, RecursionError, MemoryError):
-            if not value[:1].isalpha():
+            if not written[:1].isalpha():
                 expected = "a word, a number, a truth value or a list"
-                raise bad(f"--hold {address}", value, expected, "such a value: hip, 2.5, True") from None
-            values[address] = value
+                raise bad(f"--hold {address}", written, expected, "such a value: hip, 2.5, True") from None
+        if values.get(address, value) != value:
+            raise lookup.held_twice(address, (address, values[address]), (address, value))
+        values[address] = value
     return [text for text in hold if "=" not in text], values
 
 
@@ -205,7 +210,7 @@ class Origin:
             sample, seed = start, (goal.seed + number) % 2**64
             for pattern in self.reroll:
                 scene = [part.address for part in sample.parts]
-                for part in parts.matching_parts(pattern, sample.choices, scene, goal.model.name):
+                for part in parts.matching_parts(pattern, sample.choices, scene, goal.model):
                     grown = sample.regrow(
                         part, particles or PARTICLES, power=power, seed=seed, threads=threads
                     )

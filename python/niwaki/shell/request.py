@@ -71,7 +71,7 @@ def search_of(
         defaults, name = {**defaults, **search.GUIDED}, name or "smc"
     if "(emit " not in reference.model.core().text:
         raise InputError("no-emit", name=reference.model.name)
-    return search.grow_search(
+    built = search.grow_search(
         reference.model,
         **{**reference.start(asks), **arguments},
         score=score,
@@ -87,3 +87,5 @@ def search_of(
         max_steps=flags.max_steps,
         max_memory=flags.max_memory << 20,
     )
+    is_free = name is None and "resampling" not in defaults
+    return search.by_program(built, settings.typed(dict(method_settings))) if is_free else built

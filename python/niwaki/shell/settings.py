@@ -16,7 +16,7 @@ import typer
 
 from niwaki import guides, kernels, search
 from niwaki.errors import InputError
-from niwaki.methods import Ais, Guide, Improve, Method, Mh, ParticleGibbs, Pimh, Smc
+from niwaki.methods import Ais, Emulate, Guide, Improve, Method, Mh, ParticleGibbs, Pimh, Smc
 from niwaki.shell.references import ModelReference
 
 #: The methods of `niwaki grow`, by their names on the command line.
@@ -26,6 +26,7 @@ METHODS: dict[str, type[Method]] = {
     "ais": Ais,
     "particle-gibbs": ParticleGibbs,
     "pimh": Pimh,
+    "emulate": Emulate,
 }
 
 MethodName = Annotated[
@@ -34,7 +35,7 @@ MethodName = Annotated[
         "--method",
         metavar="NAME",
         help=f"Search method: {', '.join(METHODS)}. Default: improve; smc with --particles or a setting that improve "
-        "lacks.",
+        "lacks; emulate where all choices come before the scene, or a host function before every part.",
     ),
 ]
 Polish = Annotated[
@@ -68,6 +69,7 @@ _METAVARS = {
     **dict.fromkeys(("particles", "powers", "anneal"), "LIST"),
     **dict.fromkeys(("kernel", "rejuvenate"), "KERNEL"),
     "seconds": "SECONDS",
+    "by": "kind|look|CHOICES|QUERY",
 }
 #: Types that the command line reads itself; any other setting is a text, which `_read` reads.
 _PLAIN = (int, float, str, bool)
@@ -325,6 +327,9 @@ def _read(name: str, value: Any) -> Any:
     if name == "particles":
         sizes = numbers(name, value, int)
         return sizes[0] if len(sizes) == 1 else sizes
+    if name == "by":
+        names = tuple(part.strip() for part in value.split(","))
+        return names if len(names) > 1 else names[0]
     if name == "powers":
         rungs = numbers(name, value, float)
         return rungs if len(rungs) > 1 else numbers(name, value, int)[0]

@@ -192,6 +192,11 @@ class Worker:
                 # The process leads a group: processes that a file of models has started end with it.
                 end_group(process.pid)
             await process.wait()
+            if process.stdout is not None:
+                # The loop closes a pipe whose end has been read; a job that reads it at present reads its end.
+                with contextlib.suppress(RuntimeError, TimeoutError):
+                    async with asyncio.timeout(GRACE):
+                        await process.stdout.read()
 
 
 def _put(pipe: asyncio.StreamWriter, header: bytes) -> None:

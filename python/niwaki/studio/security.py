@@ -34,7 +34,7 @@ HEADERS = {
 }
 
 #: Methods by path; all other paths accept GET and HEAD.
-METHODS = {"/upload": ("POST",)}
+METHODS = {"/upload": ("POST",), "/mcp": ("DELETE", "GET", "POST")}
 
 
 class Guard:

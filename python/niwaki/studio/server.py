@@ -5,6 +5,7 @@ GET  /open        the link that the terminal shows (`niwaki.studio.security`)
 GET  /socket      a websocket: JSON both ways, geometry as frames
 POST /upload      a mesh or a drawing; its format is the suffix of `?name=ship.obj`
 GET  /file/HASH   an exported file
+     /mcp         the messages as tools, if `niwaki mcp` has started the server (`niwaki.agents`)
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import json
 import re
 import sys
 import tempfile
+from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -57,8 +59,22 @@ DRAWINGS = (".svg", ".png", ".webp", ".bmp", ".gif", ".tif", ".tiff", ".jpg", ".
 _decode = msgspec.json.Decoder(AnyCommand).decode
 
 
-def application(session: Session, port: int, cookie: tuple[str, str] | None = None) -> Guard:
-    """Make the application, with a guard in front of it; `cookie` is the name and the value of a known cookie."""
+def application(
+    session: Session, port: int, cookie: tuple[str, str] | None = None, further: Sequence[Route] = ()
+) -> Guard:
+    """Make the application, with a guard in front of it.
+
+    Parameters
+    ----------
+    session
+        The session.
+    port
+        The port of the server.
+    cookie
+        The name and the value of a known cookie.
+    further
+        Further routes, whose methods `niwaki.studio.security` lists.
+    """
 
     async def page(request: Request) -> Response:
         name = PAGE[request.url.path]
@@ -108,7 +124,7 @@ def application(session: Session, port: int, cookie: tuple[str, str] | None = No
     readers = asyncio.Semaphore(READERS)
     routes: list[Any] = [Route(path, page) for path in PAGE]
     routes += [Route("/file/{hash}", file), Route("/upload", upload, methods=["POST"])]
-    routes.append(WebSocketRoute("/socket", _socket(session)))
+    routes += [WebSocketRoute("/socket", _socket(session)), *further]
     return Guard(
         Starlette(
             routes=routes, exception_handlers=dict.fromkeys((OSError, NiwakiError, Exception), _failed)

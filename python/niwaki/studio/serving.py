@@ -8,10 +8,13 @@ import os
 import socket
 import sys
 import webbrowser
+from collections.abc import Callable, Sequence
+from contextlib import AbstractAsyncContextManager, AsyncExitStack
 from pathlib import Path
 from typing import Any, ClassVar
 
 import uvicorn
+from starlette.routing import Route
 from uvicorn.protocols.http.h11_impl import H11Protocol
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 from watchfiles import awatch
@@ -123,7 +126,19 @@ def listening(port: int) -> socket.socket:
     return listener
 
 
-def serve(models: list[str], folder: Path, port: int = 0, browser: bool = True, trust: bool = False) -> None:
+#: Opens what a server serves beside the page: routes, for as long as the server runs.
+Beside = Callable[[Session], AbstractAsyncContextManager[Sequence[Route]]]
+
+
+def serve(
+    models: list[str],
+    folder: Path,
+    port: int = 0,
+    browser: bool = True,
+    trust: bool = False,
+    root: Path | None = None,
+    beside: Beside | None = None,
+) -> None:
     """Serve a session until Ctrl-C.
 
     Parameters
@@ -138,6 +153,10 @@ def serve(models: list[str], folder: Path, port: int = 0, browser: bool = True, 
         Whether to open the page.
     trust
         Whether unchanged files that stored runs name may be run for their host functions.
+    root
+        The folder below which commands may name, read and write files; None for no folder.
+    beside
+        Further routes of the server.
 
     Raises
     ------
@@ -146,7 +165,8 @@ def serve(models: list[str], folder: Path, port: int = 0, browser: bool = True, 
     """
     _allow_files()
     with contextlib.suppress(KeyboardInterrupt), held_folder(folder):
-        asyncio.run(_serve([_absolute(reference) for reference in models], folder, port, browser, trust))
+        files = [_absolute(reference) for reference in models]
+        asyncio.run(_serve(Session(folder, files, trust, root), folder, port, browser, beside))
 
 
 def _allow_files() -> None:
@@ -168,37 +188,38 @@ def _absolute(reference: str) -> str:
     return f"{Path(place).resolve()}{colon}{name}"
 
 
-async def _serve(models: list[str], folder: Path, port: int, browser: bool, trust: bool) -> None:
-    session = Session(folder, models, trust)
-    listener = _listening_again(port, folder)
-    port = listener.getsockname()[1]
-    guard = application(session, port, _stored_cookie(folder, port))
-    write_whole(folder / COOKIE, f"{port} {guard.cookie_name} {guard.cookie}\n".encode(), private=True)
-    config = uvicorn.Config(
-        guard,
-        http=Patient,
-        ws=Reading,
-        ws_max_size=COMMAND,
-        ws_per_message_deflate=False,
-        log_level="error",
-        access_log=False,
-        lifespan="off",
-        timeout_keep_alive=10,
-        timeout_graceful_shutdown=2,
-        server_header=False,
-        date_header=False,
-    )
-    server = uvicorn.Server(config)
-    write_whole(folder / "key", f"http://127.0.0.1:{port} {guard.key}\n".encode(), private=True)
-    watching = session.start(_watch(session, models))
-    beginning = asyncio.create_task(begin(session))
-    telling = asyncio.create_task(_tell(guard, port, browser))
-    try:
-        await server.serve(sockets=[listener])
-    finally:
-        for task in (watching, beginning, telling):
-            task.cancel()
-        await session.end()
+async def _serve(session: Session, folder: Path, port: int, browser: bool, beside: Beside | None) -> None:
+    async with AsyncExitStack() as stack:
+        stack.push_async_callback(session.end)
+        listener = _listening_again(port, folder)
+        port = listener.getsockname()[1]
+        routes = () if beside is None else await stack.enter_async_context(beside(session))
+        guard = application(session, port, _stored_cookie(folder, port), routes)
+        write_whole(folder / COOKIE, f"{port} {guard.cookie_name} {guard.cookie}\n".encode(), private=True)
+        config = uvicorn.Config(
+            guard,
+            http=Patient,
+            ws=Reading,
+            ws_max_size=COMMAND,
+            ws_per_message_deflate=False,
+            log_level="error",
+            access_log=False,
+            lifespan="off",
+            timeout_keep_alive=10,
+            timeout_graceful_shutdown=2,
+            server_header=False,
+            date_header=False,
+        )
+        server = uvicorn.Server(config)
+        write_whole(folder / "key", f"http://127.0.0.1:{port} {guard.key}\n".encode(), private=True)
+        watching = session.start(_watch(session, session.files))
+        beginning = asyncio.create_task(begin(session))
+        telling = asyncio.create_task(_tell(guard, port, browser))
+        try:
+            await server.serve(sockets=[listener])
+        finally:
+            for task in (watching, beginning, telling):
+                task.cancel()
 
 
 def _listening_again(port: int, folder: Path) -> socket.socket:

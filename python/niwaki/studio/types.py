@@ -8,9 +8,13 @@ from typing import Any, get_args
 
 from msgspec import inspect as look
 
+from niwaki.draw.palette import OBSTACLE
 from niwaki.studio import messages
 
-HEADER = "// Written by `make studio-page` from python/niwaki/studio/messages: change these files instead.\n"
+HEADER = (
+    "// Written by `make studio-page` from python/niwaki/studio/messages, and python/niwaki/draw/palette.py:"
+    " change these files instead.\n"
+)
 
 
 def typescript() -> str:
@@ -24,7 +28,15 @@ def typescript() -> str:
     blocks = [_interface(kind) for kind in known.values()]
     blocks.append(_union("Command", commands))
     blocks.append(_union("Event", events))
-    return "\n".join([HEADER, f"export const PROTOCOL = {messages.PROTOCOL};\n", *blocks])
+    return "\n".join([HEADER, f"export const PROTOCOL = {messages.PROTOCOL};\n", _colors(), *blocks])
+
+
+def _colors() -> str:
+    """Write the colour of obstacles, the same as in pictures."""
+    numbers = [
+        f"{theme}: 0x{bytes(round(255 * c) for c in color).hex()}" for theme, color in OBSTACLE.items()
+    ]
+    return f"/** The colour of obstacles in each theme. */\nexport const OBSTACLE = {{ {', '.join(numbers)} }};\n"
 
 
 def _is_event(member: Any) -> bool:

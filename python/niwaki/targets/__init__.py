@@ -15,6 +15,7 @@ camera     cameras of images
 images     masks and greys of images
 pixels     pixels of image files
 sketches   scores of a scene, as values that multiply
+differences  what a scene gets wrong, as a vector that an emulator learns
 asks       options of the command line, batches and the studio, and their sketches
 fit        coverage and surplus of a scene
 views      pictures of a scene beside its image, shadow or drawing

@@ -3,8 +3,8 @@
     covered   share of the target that the scene fills
     outside   share of the scene that is outside of the target
 
-Volumes are compared cell by cell, pictures and drawings pixel by pixel. The score counts the cells that agree. This
-share is high for an empty scene, because most cells around a thin target are empty in both.
+Volumes are compared cell by cell, pictures and drawings pixel by pixel. The usual score counts the cells that agree.
+This share is high for an empty scene, because most cells around a thin target are empty in both.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from niwaki.shares import coverage
 
 if TYPE_CHECKING:
     from niwaki.draw.scene import Scene
-    from niwaki.targets.sketches import Score, SketchCall
+    from niwaki.targets.sketches import Score
 
 #: The largest number of cells of a grid that measures a scene beyond its target; a larger scene has larger cells.
 MAX_CELLS = 2_000_000
@@ -57,24 +57,24 @@ def fit(score: Score, scene: Scene) -> Fit | None:
     """Compare a scene with the first target of a score: its volume, else its image, shadow or drawing, else None."""
     for call in score.asks:
         if call.function == "match_volume" and call.grid is not None:
-            return _of_volume(call, call.grid, scene)
+            return _of_volume(call.grid, float(call.arguments["voxel"]), scene)
     for view in score.views:
         return Fit.of_masks(view.image, view.mask(scene))
     return None
 
 
-def _of_volume(call: SketchCall, grid: _engine.Target, scene: Scene) -> Fit:
+def _of_volume(grid: _engine.Target, voxel: float, scene: Scene) -> Fit:
     low, high = np.asarray(grid.domain)
     cells = prod(grid.dims)
     cell = float(np.prod(high - low)) / cells
-    measures = _measured(call.spec, scene)
+    measures = _measured(grid, scene)
     # Cells differ if the target fills them and the scene does not, or the other way round.
     differ = round((1.0 - measures["similarity"]) * cells)
     inside = 0.5 * (grid.filled + measures["filled"] - differ)
     filled = measures["filled"] * cell
     bounds = scene.bounds
     if len(scene) and ((bounds[0] < low).any() or (bounds[1] > high).any()):
-        filled = max(filled, _volume(scene, float(call.arguments["voxel"])))
+        filled = max(filled, _volume(scene, voxel))
     return Fit(inside / grid.filled, max(0.0, 1.0 - inside * cell / filled) if filled > 0.0 else 0.0)
 
 
@@ -85,13 +85,13 @@ def _volume(scene: Scene, voxel: float) -> float:
     block = _engine.shape("box", ((low + high) / 2.0).tolist(), extent.tolist())
     size = max(voxel, float((extent.prod() / MAX_CELLS) ** (1.0 / 3.0)))
     grid = _engine.Target(block.vertices(), block.faces(), size)
-    spec = _engine.SketchSpec(json.dumps({"match_volume": {"sigma": 1.0}}), grid)
     domain_low, domain_high = np.asarray(grid.domain)
-    return _measured(spec, scene)["filled"] * float(np.prod(domain_high - domain_low)) / prod(grid.dims)
+    return _measured(grid, scene)["filled"] * float(np.prod(domain_high - domain_low)) / prod(grid.dims)
 
 
-def _measured(spec: _engine.SketchSpec, scene: Scene) -> dict[str, float]:
-    sketch = _engine.Sketch([spec])
+def _measured(grid: _engine.Target, scene: Scene) -> dict[str, float]:
+    """Return the measures of a scene where all cells of a grid count."""
+    sketch = _engine.Sketch([_engine.SketchSpec(json.dumps({"match_volume": {"sigma": 1.0}}), grid)])
     for part in scene:
         sketch.add(list(part.shapes))
     return sketch.measures()

@@ -49,6 +49,8 @@ def choose(values: Any, weights: Any = None, *, label: str | None = None) -> Any
         if weights is not None:
             raise TypeError("`choose` got weights twice: in the dict, and in `weights`")
         values, weights = list(values), list(values.values())
+    if isinstance(weights, str | float | int):
+        raise TypeError(f"`choose` takes its options as one list: `choose([{values!r}, {weights!r}])`")
     dist = d.DiscreteUniform(0, len(values) - 1) if weights is None else d.Categorical(weights)
     return values[runner("choose").sample(dist, words_of(values))]
 

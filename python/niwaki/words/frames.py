@@ -56,7 +56,7 @@ def look(position: VecLike, forward: VecLike, up: VecLike | None = None) -> Fram
     return Frame(center, ahead, _unit(across), 1.0)
 
 
-def place(frame: Placing, function: Callable[..., T], *args: Any) -> T:
+def place(frame: Placing, function: Callable[..., T], *args: Any, label: str | None = None) -> T:
     """Call a function so that all shapes that it emits, also in calls below it, are in a frame.
 
     The function draws, scores and returns as in any call; its points and directions are those of the frame. A `place`
@@ -72,6 +72,8 @@ def place(frame: Placing, function: Callable[..., T], *args: Any) -> T:
         A model function.
     args
         The function's arguments, by position.
+    label
+        The call's name for people, a constant text; by default the function's.
 
     Returns
     -------
@@ -81,7 +83,9 @@ def place(frame: Placing, function: Callable[..., T], *args: Any) -> T:
     return value
 
 
-def mirrored(axis: str | VecLike, function: Callable[..., T], *args: Any) -> list[T]:
+def mirrored(
+    axis: str | VecLike, function: Callable[..., T], *args: Any, label: str | None = None
+) -> list[T]:
     """Call a function twice, the second time with its shapes reflected at the plane through the origin across `axis`.
 
     Each call draws its own choices. For two equal halves, draw before, and pass the values as arguments.
@@ -94,6 +98,8 @@ def mirrored(axis: str | VecLike, function: Callable[..., T], *args: Any) -> lis
         A model function.
     args
         The function's arguments, by position.
+    label
+        The name of the calls for people, a constant text; they are numbered. By default the function's.
 
     Returns
     -------
@@ -103,7 +109,9 @@ def mirrored(axis: str | VecLike, function: Callable[..., T], *args: Any) -> lis
     return values
 
 
-def arrayed(frames: Iterable[Placing], function: Callable[..., T], *args: Any) -> list[T]:
+def arrayed(
+    frames: Iterable[Placing], function: Callable[..., T], *args: Any, label: str | None = None
+) -> list[T]:
     """Call a function once in each frame of a list, as `place` does.
 
     Each call draws its own choices. For equal copies, draw before, and pass the values as arguments.
@@ -116,6 +124,8 @@ def arrayed(frames: Iterable[Placing], function: Callable[..., T], *args: Any) -
         A model function.
     args
         The function's arguments, by position.
+    label
+        The name of the calls for people, a constant text; they are numbered. By default the function's.
 
     Returns
     -------

@@ -7,6 +7,7 @@ import { easel, placeOf, plan } from "./pictures";
 import * as store from "./store";
 import { Bar } from "./ui/bar";
 import { Canvas, drag, shown, stage } from "./ui/canvas";
+import { sideShapes } from "./ui/compare";
 import { Easel, frame } from "./ui/easel";
 import { Gallery } from "./ui/gallery";
 import { play } from "./ui/growth";
@@ -138,11 +139,17 @@ Object.assign(window, {
     get counts() {
       return store.difference.value === null ? null : store.counts.value;
     },
-    get differenceOf() {
-      return `${store.difference.value?.header.key?.number ?? ""}`;
+    /** Whether nothing on the page is still being drawn or moving. */
+    get isStill() {
+      const isMoving = (animation: Animation) => animation.effect?.getComputedTiming().endTime !== Infinity;
+      const cards = [...document.querySelectorAll<HTMLCanvasElement>(".gallery canvas")];
+      return stage.isDrawn && !document.getAnimations().some(isMoving) && cards.every((card) => card.dataset.drawn) && document.fonts.status === "loaded";
     },
     get compared() {
       return stage.compared;
+    },
+    get comparedDetails() {
+      return sideShapes.value.map(([shape]) => shape.detail);
     },
     get drawn() {
       const { start, count } = stage.piece!.geometry.drawRange;

@@ -1,6 +1,9 @@
-// Written by `make studio-page` from python/niwaki/studio/messages: change these files instead.
+// Written by `make studio-page` from python/niwaki/studio/messages, and python/niwaki/draw/palette.py: change these files instead.
 
 export const PROTOCOL = 1;
+
+/** The colour of obstacles in each theme. */
+export const OBSTACLE = { light: 0xb4564a, dark: 0xd9837a };
 
 /** Begin a connection; the answer is the whole state. */
 export interface Hello {
@@ -95,6 +98,69 @@ export interface Set {
   id?: number;
 }
 
+/** Request fields of the state by name, such as `models`, `targets` or `results`. */
+export interface Look {
+  kind: "look";
+  fields?: string[];
+  id?: number;
+}
+
+/** Read a text file below the folder that was named at the start. */
+export interface Read {
+  kind: "read";
+  path: string;
+  id?: number;
+}
+
+/** Write a file below the folder that was named at the start: a model (`.py`, `.scad`) or a note (`.md`). */
+export interface Write {
+  kind: "write";
+  path: string;
+  text: string;
+  id?: number;
+}
+
+/** The key of a result: the number of its run, and its place in the run. */
+export interface Key {
+  run: number;
+  number?: number;
+}
+
+/** Compile a model; report its functions and choices, advice, and the requirements that its results must keep. */
+export interface Check {
+  kind: "check";
+  reference?: string;
+  key?: Key | null;
+  id?: number;
+}
+
+/** Run the present model without a target, `count` times; the answer has a picture of these runs side by side. */
+export interface Preview {
+  kind: "preview";
+  count?: number;
+  seed?: number | null;
+  id?: number;
+}
+
+/** Change one choice of a run of the present model, and count the calls that each strategy runs again. */
+export interface Explain {
+  kind: "explain";
+  choice: string;
+  seed?: number | null;
+  id?: number;
+}
+
+/** Fit the parameters of somebody else's model, `file.py:function` or an OpenSCAD file, to a target. */
+export interface Fit {
+  kind: "fit";
+  reference: string;
+  target: TargetAsk;
+  evaluations?: number;
+  seed?: number;
+  align?: boolean;
+  id?: number;
+}
+
 /** Start a search; held parts stay. A running search is stopped first and its results are dropped. */
 export interface Run {
   kind: "run";
@@ -165,12 +231,6 @@ export interface Rewrite {
   id?: number;
 }
 
-/** The key of a result: the number of its run, and its place in the run. */
-export interface Key {
-  run: number;
-  number?: number;
-}
-
 /** Request the choices of a result, with their places in the source. */
 export interface Describe {
   kind: "describe";
@@ -178,11 +238,11 @@ export interface Describe {
   id?: number;
 }
 
-/** Request the shape of a result. */
+/** Request the shape of a result, as a mesh (`light`, `fine`) or as a small picture (`picture`). */
 export interface Show {
   kind: "show";
   key: Key;
-  detail?: "fine" | "light";
+  detail?: "fine" | "light" | "picture";
   id?: number;
 }
 
@@ -298,6 +358,7 @@ export interface Outcome {
   outside: number | null;
   note: string;
   fit: string;
+  unmet: string[];
 }
 
 /** A held part: its pattern, and the values of its held choices. */
@@ -431,6 +492,104 @@ export interface Shape {
   note: string;
   held: [number, number, number] | null;
   left: number;
+}
+
+/** The answer to `look`: fields of the state. */
+export interface Looked {
+  kind: "looked";
+  id: number;
+  values: Record<string, any>;
+}
+
+/** The text of a file that was read or written. */
+export interface FileText {
+  kind: "text";
+  id: number;
+  path: string;
+  text: string;
+}
+
+/** A function of a model; a function without sites is pure. */
+export interface FunctionRow {
+  name: string;
+  sites: number;
+}
+
+/** A choice in the text of a model: its function, its component of addresses, its line. */
+export interface ChoiceRow {
+  function: string;
+  choice: string;
+  line: number;
+}
+
+/** Advice about a line of a model. */
+export interface AdviceRow {
+  code: string;
+  line: number;
+  text: string;
+}
+
+/** A requirement beside a model. */
+export interface RequirementRow {
+  name: string;
+  text: string;
+  holds: boolean | null;
+  value: string;
+}
+
+/** A report on a model: its functions and choices, advice, and requirements. */
+export interface CheckReport {
+  model: string;
+  arguments: string;
+  constants: number;
+  functions: FunctionRow[];
+  choices: ChoiceRow[];
+  advice: AdviceRow[];
+  requirements: RequirementRow[];
+}
+
+/** The answer to `check`: what `niwaki check --json` prints. */
+export interface Checked {
+  kind: "checked";
+  id: number;
+  report: CheckReport | null;
+}
+
+/** A run of a model without a target; the value that it returned, if it emitted nothing. */
+export interface RunRow {
+  seed: number;
+  primitives: number;
+  value: string;
+}
+
+/** A report on runs of a model without a target. */
+export interface ShowReport {
+  runs: RunRow[];
+}
+
+/** The answer to `preview`: what `niwaki show --json` prints. */
+export interface Previewed {
+  kind: "previewed";
+  id: number;
+  report: ShowReport | null;
+}
+
+/** The answer to `explain`: a changed choice, and the calls that each strategy runs again for it. */
+export interface Explained {
+  kind: "explained";
+  id: number;
+  choice: string;
+  before: string;
+  after: string;
+  calls: number;
+  strategies: Record<string, Record<string, number>>;
+}
+
+/** The answer to `fit`: what `niwaki fit --json` prints. */
+export interface Fitted {
+  kind: "fitted";
+  id: number;
+  report: Record<string, any>;
 }
 
 /** A choice before and after a drag; None if the run has no such choice. */
@@ -571,6 +730,13 @@ export type Command =
   | ChooseModel
   | SetAsk
   | Set
+  | Look
+  | Read
+  | Write
+  | Check
+  | Preview
+  | Explain
+  | Fit
   | Run
   | Stop
   | HoldParts
@@ -595,6 +761,12 @@ export type Event =
   | Patch
   | Described
   | Shape
+  | Looked
+  | FileText
+  | Checked
+  | Previewed
+  | Explained
+  | Fitted
   | Dragged
   | Offered
   | Difference

@@ -109,8 +109,10 @@ export const onShape = (listener: Listener<Shape>): void => void shapeListeners.
 const pictureListeners: Listener<Picture | Regions>[] = [];
 export const onPicture = (listener: Listener<Picture | Regions>): void => void pictureListeners.push(listener);
 function onFrame(header: Frame, payload: ArrayBuffer): void {
-  if (header.kind === "difference") difference.value = { header, marks: new Uint8Array(payload) };
-  else if (header.kind === "mask") mask.value = header.width === 0 ? null : { header, marks: new Uint8Array(payload) };
+  if (header.kind === "difference") {
+    // The answer for a result that is not the active one any more comes too late.
+    if (sameKey(header.key, picked.value)) difference.value = { header, marks: new Uint8Array(payload) };
+  } else if (header.kind === "mask") mask.value = header.width === 0 ? null : { header, marks: new Uint8Array(payload) };
   else if (header.kind === "shape" && header.role === "glimpse") glimpses.value = new Map(glimpses.value).set(header.source ?? "", [header, payload]);
   else if (header.kind === "shape") shapeListeners.forEach((listener) => listener(header, payload));
   else pictureListeners.forEach((listener) => listener(header, payload));

@@ -11,7 +11,7 @@ import batched
 import niwaki as nw
 import pytest
 from niwaki import batches
-from niwaki.batches import export
+from niwaki.batches import export, tables
 
 
 def stored(folder: Path) -> batches.Store:
@@ -56,3 +56,25 @@ def test_parquet_has_the_same(tmp_path: Path) -> None:
 def test_without_the_library_there_is_a_message(tmp_path: Path) -> None:
     with pytest.raises(nw.NiwakiError, match=r"niwaki\[parquet\]"):
         export.write_parquet(tmp_path / "results.parquet", stored(tmp_path))
+
+
+@pytest.mark.parametrize(
+    ("values", "kind"),
+    [
+        ([1, None, 2], int),
+        ([1, 2.5], float),
+        ([True, False], bool),
+        ([True, 1], str),
+        (["a", None], str),
+        ([(1, 2)], str),
+        ([None], str),
+    ],
+)
+def test_a_column_has_the_type_of_its_values(values: list[object], kind: type) -> None:
+    assert tables.kind(values) is kind
+
+
+def test_a_table_has_another_ending(tmp_path: Path) -> None:
+    with pytest.raises(nw.NiwakiError, match="ends in .csv or .parquet"):
+        tables.write(tmp_path / "table.txt", {"a": int}, [])
+    assert not (tmp_path / "table.txt").exists()

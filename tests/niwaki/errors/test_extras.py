@@ -6,13 +6,13 @@ import sys
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, cast
+from typing import cast
 
 import niwaki as nw
 import numpy as np
 import pytest
 from niwaki import box, emit, model
-from niwaki.batches import clusters, export
+from niwaki.batches import clusters, tables
 from niwaki.color.raster import raster
 from niwaki.errors import FileError
 from niwaki.errors.extras import EXTRAS, optional
@@ -40,6 +40,11 @@ def in_the_studio(_: Path) -> None:
     raise cast(Exception, CliRunner().invoke(app, ["studio", "--no-browser"]).exception)
 
 
+def by_tools(folder: Path) -> None:
+    sys.modules.pop("niwaki.agents.server", None)
+    raise cast(Exception, CliRunner().invoke(app, ["mcp", str(folder)]).exception)
+
+
 def on(engine: str) -> Callable[[Path], object]:
     return lambda _: clusters.ENGINES[engine](1).__enter__()
 
@@ -50,8 +55,9 @@ NEEDS: list[tuple[str, str, Callable[[Path], object]]] = [
     ("cluster", "distributed", on("dask")),
     ("cluster", "ray", on("ray")),
     ("color", "resvg_py", lambda _: raster("<svg/>", 8)),
+    ("mcp", "mcp", by_tools),
     ("notebook", "anywidget", lambda _: View([]).widget()),
-    ("parquet", "pyarrow", lambda folder: export.write_parquet(folder / "a.parquet", cast(Any, None))),
+    ("parquet", "pyarrow", lambda folder: tables.write_parquet(folder / "a.parquet", {}, [])),
     ("print", "manifold3d", printed),
     ("stacks", "scipy.sparse", lambda _: judges.need("scipy.sparse")),
     ("studio", "uvicorn", in_the_studio),

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import hashlib
 import os
-import random
 import signal
 import time
 from pathlib import Path
 
 import numpy as np
 from niwaki.words.distributions import Bernoulli, DiscreteUniform, Uniform
+
+#: The widths of the calls of `restless` in this process.
+CALLS: list[float] = []
 
 CORNERS = np.array(
     [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4]]
@@ -63,7 +65,8 @@ def broken(width=Uniform(0.5, 2.0)):
 
 
 def restless(width=Uniform(0.5, 2.0)):
-    return block(width + random.random(), 1.0, 1.0)
+    CALLS.append(width)
+    return block(width / len(CALLS), 1.0, 1.0)
 
 
 def by_run(d):

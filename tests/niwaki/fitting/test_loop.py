@@ -10,10 +10,11 @@ from typing import Any
 import niwaki as nw
 import numpy as np
 import pytest
-from niwaki import _engine
+from niwaki import _engine, fitting
 from niwaki.draw.scene import Scene
 from niwaki.errors import InputError
-from niwaki.fitting import Answer, Failure, FitLoop, Goal, Outcome, Parameter, Space, number
+from niwaki.fitting import Answer, Failure, FitLoop, Goal, Outcome, number
+from niwaki.search import Parameter, Space
 from niwaki.words.distributions import Bernoulli, DiscreteUniform, Gaussian, LogNormal, Uniform
 
 SPACE = {
@@ -176,7 +177,13 @@ def test_sensitivity_names_the_parts_that_move(searched: FitLoop):
     # The knob is on top; a wider block changes at its sides.
     assert np.abs(knob).sum((0, 2)).argmax() >= knob.shape[1] - 4
     assert np.abs(width).sum((1, 2)).argmax() not in range(width.shape[0] // 3, 2 * width.shape[0] // 3)
-    assert searched.answers.picture().size[0] > 100
+    knobs = effects["knob"].blocks
+    # When a parameter grows, and when a switch goes on, the blocks gain.
+    assert width.sum() > 0 and knobs is not None and knobs.sum() > 0
+    assert effects["knob"].values == (False, True) and str(effects["knob"]) == "knob: False to True"
+    assert effects["width"].values[0] < searched.best.parameters["width"] < effects["width"].values[1]
+    picture = np.asarray(searched.answers.picture())
+    assert picture.shape[1] > 100 and (picture == fitting.effects.MORE).all(2).any()
 
 
 def test_goals_of_every_kind_have_differences():
@@ -211,6 +218,18 @@ def test_a_scene_that_matches_has_no_differences(goal: Goal):
     assert np.abs(exact.features).max() < 0.02 * np.abs(empty.features).max()
     assert exact.score > 5.5 and empty.score < -50
     assert exact.covered == 1.0
+
+
+def test_differences_are_in_nats_of_the_score_of_balanced_cells():
+    empty = Scene([])
+    plain, balanced = (
+        Goal.of(nw.match_volume(target(HIDDEN), voxel=0.06, weight=weight))
+        for weight in ("cells", "balanced")
+    )
+    # By the deviation of each the whole target is missing: its share of all cells, and all of it.
+    share = 1.0 - _engine.Sketch(plain.score.specs).similarity()
+    ratio = (1.0 / (5 * 0.02)) / (share / 0.02)
+    assert balanced.measure(empty).features == pytest.approx(ratio * plain.measure(empty).features, rel=1e-6)
 
 
 def test_numbers_are_scored_by_their_tolerance():

@@ -99,6 +99,7 @@ def test_json_prints_the_numbers_and_nothing_else(tmp_path: Path, monkeypatch: p
         "cpu_seconds",
         "covered",
         "outside",
+        "seed",
     }
     assert all(set(row) == names for row in data["runs"])
     assert not list(tmp_path.iterdir())

@@ -66,7 +66,7 @@ FLAGS = {
     "--bytecode": ("--bytecode", None, "Print the bytecode."),
     "--from": ("--from", "RUN.JSON", "A result to start from"),
     "--run": ("--run", "N", "Number of the result"),
-    "--hold": ("--hold", "PATTERN|ADDRESS=VALUE", "Hold the parts of the result of --from"),
+    "--hold": ("--hold", "PATTERN|NAME=VALUE", "Hold the parts of the result of --from"),
     "--reroll": ("--reroll", "PATTERN", "Grow the parts again that match PATTERN"),
     # What a scene should be like.
     "--target": ("--target", "FILE", "A mesh to fill"),
@@ -103,6 +103,9 @@ FLAGS = {
         ("The time after which no round begins", "Begin no evaluation after so many seconds."),
     ),
     "--diverse": ("--diverse", "N", "The number of results that differ"),
+    "--by": ("--by", "kind|look|CHOICES|QUERY", "What tells results apart."),
+    "--within": ("--within", "NUMBER", "The nats below the best within which"),
+    "--bins": ("--bins", "N", "The number of bins of a real choice or query"),
     "--order": ("--order", "NAME", '"stochastic"'),
     "--weights": ("--weights", "NAME", '"ratio"'),
     "--resampling": ("--resampling", "NAME", '"systematic"'),

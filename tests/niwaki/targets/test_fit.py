@@ -41,6 +41,11 @@ def test_a_scene_that_is_far_away_or_huge_is_outside() -> None:
     assert huge.covered == 1.0 and huge.outside > 0.999
 
 
+def test_shares_do_not_depend_on_which_cells_the_score_counts() -> None:
+    scene = Scene([("part", [box((1, 1, 0), (2, 2, 2))])])
+    assert fit(nw.match_volume(TARGET, 0.1, weight="balanced"), scene) == fit(SCORE, scene)
+
+
 def test_an_empty_scene_agrees_with_much_and_covers_nothing() -> None:
     result = nw.Search(nothing, score=SCORE).run()
     assert result.best.similarity is not None and result.best.similarity >= 0.0

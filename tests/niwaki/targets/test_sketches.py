@@ -102,6 +102,32 @@ def test_limits() -> None:
     assert nw.overshoot(cube(size=6.0)).specs[0].name == "overshoot"
 
 
+def test_balanced_counts_the_cells_of_both_over_those_of_either() -> None:
+    """The similarity and the log score are those of the masks, also of an empty scene; files keep the weight."""
+    score = nw.match_volume(cube(), 0.25, 0.03, weight="balanced")
+    sketch = started(score)
+    grid, part = score.asks[0].grid, shape((0.9, 0, 0), (2, 1, 1))
+    assert grid is not None
+    peak = log_normal(1, 1, 0.15) + log_normal(0, 0, 0.03)
+    assert sketch.similarity() == 0.0
+    assert sketch.log_score() == pytest.approx(peak - 0.5 * (1 / 0.15) ** 2)
+    sketch.add([part])
+    want, filled = grid.cells(), grid.mask([part])
+    index = (want & filled).sum() / (want | filled).sum()
+    outside = sketch.measures()["overshoot"]
+    assert 0.1 < index < 0.9 and outside > 0.0
+    assert sketch.similarity() == index
+    assert sketch.log_score() == pytest.approx(
+        peak - 0.5 * ((1 - index) / 0.15) ** 2 - 0.5 * (outside / 0.03) ** 2
+    )
+    assert score.data(str)[0]["given"]["weight"] == "balanced"
+    assert "weight" not in nw.match_volume(cube(), weight="cells").asks[0].arguments
+    again = SKETCHES["match_volume"](**score.asks[0].arguments)
+    assert started(again).log_score() == started(score).log_score()
+    with pytest.raises(nw.InputError, match=r'"cells" or "balanced"'):
+        nw.match_volume(cube(), weight="surface")
+
+
 def test_the_engine_names_a_sketch_as_the_function_that_makes_it() -> None:
     greys, plane = np.where(ON, 0, 255).astype(np.uint8), ((0, 0), (1, 1))
     scores = [

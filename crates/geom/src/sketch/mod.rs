@@ -40,7 +40,7 @@ pub use picture::{Picture, PictureMatch, TargetPicture, match_image, match_shado
 pub use product::Sketches;
 pub use score::{Copied, Sketch, SketchSpec};
 pub use texture::{Texture, TextureMatch, fill_drawing};
-pub use volume::{VolumeMatch, match_volume};
+pub use volume::{BALANCED_DEVIATIONS, CellWeight, VolumeMatch, match_volume, match_volume_by};
 
 use crate::bounds::Aabb;
 use crate::error::GeomError;
@@ -98,5 +98,7 @@ sketches! {
         let [low, high] = domain.map(Into::into);
         no_overshoot(Aabb { low, high }, sigma)
     };
-    "match_volume" MatchVolume { sigma: f64 } |inputs| match_volume(inputs.target()?, sigma);
+    "match_volume" MatchVolume { sigma: f64, weight: Option<CellWeight> } |inputs| {
+        match_volume_by(inputs.target()?, sigma, weight.unwrap_or_default())
+    };
 }

@@ -1,13 +1,18 @@
 //! Volume matching: the agreement of filled cells with those of a target, and the reach of the scene beyond it.
 //!
 //! ```text
-//! log score = ln N(similarity; 1, sigma) + ln N(overshoot; 0, sigma)          both with normalisers
-//! similarity = cells equal in scene and target / cells of the domain
-//! overshoot  = sum over six sides of (length outside the domain / extent of the domain along that axis)
+//! log score = ln N(similarity; 1, deviation) + ln N(overshoot; 0, sigma)      both with normalisers
+//! cells:     similarity = cells equal in scene and target / cells of the domain,            deviation = sigma
+//! balanced:  similarity = cells that both fill / cells that the scene or the target fills,  deviation = 5 sigma
+//! overshoot = sum over six sides of (length outside the domain / extent of the domain along that axis)
 //! ```
 //!
 //! Dissertation 5.5.1. differs: similarity is over exactly the domain's cells (the original pads to words of 32);
-//! overshoot is a sum over the sides, as in the original's code; its text has the maximum.
+//! overshoot is a sum over the sides, as in the original's code; its text has the maximum. That is the similarity of `cells`.
+//!
+//! That of `balanced` is the Jaccard index of the two sets (intersection over union): cells that neither fills do not count, so that
+//! the emptiness around a thin target is no merit. Both are quotients of the same integers, the filled cells and those among them
+//! inside of the target, so either is exact in any order of shapes.
 
 use super::bag::Bag;
 use super::overshoot::overshoot;
@@ -19,15 +24,43 @@ use crate::solids::primitive::Primitive;
 use crate::voxel::{Grid, Voxels};
 use crate::window::solid::Volume;
 use crate::window::{Place, WindowForm};
+use serde::Deserialize;
 use std::sync::Arc;
 
-/// Scores a scene by how well it fills `target`; `sigma` is the standard deviation of both terms.
+/// The standard deviation of the balanced similarity, in those of the other terms. A target of the usual size fills a fifth of its
+/// domain. If all of it is missing, both similarities lower the score by as much.
+pub const BALANCED_DEVIATIONS: f64 = 5.0;
+
+/// The cells that count in the similarity of volumes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CellWeight {
+    /// All cells of the domain.
+    #[default]
+    Cells,
+    /// The cells that the target or the scene fills.
+    Balanced,
+}
+
+/// Scores a scene by how well it fills `target`, where all cells count; `sigma` is the standard deviation of both terms.
 ///
 /// # Errors
 /// `bad-setting` when it is not positive.
 pub fn match_volume(target: Arc<Target>, sigma: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
+    match_volume_by(target, sigma, CellWeight::Cells)
+}
+
+/// Scores a scene by how well it fills `target`, where the cells of `weight` count.
+///
+/// # Errors
+/// `bad-setting` when `sigma` is not positive.
+pub fn match_volume_by(
+    target: Arc<Target>,
+    sigma: f64,
+    weight: CellWeight,
+) -> Result<Arc<dyn SketchSpec>, GeomError> {
     check_sigma(sigma)?;
-    Ok(Arc::new(VolumeMatch::new(target, sigma)))
+    Ok(Arc::new(VolumeMatch::new(target, sigma).weighted(weight)))
 }
 
 impl SketchSpec for VolumeMatch {
@@ -50,6 +83,7 @@ impl SketchSpec for VolumeMatch {
 pub struct VolumeMatch {
     target: Arc<Target>,
     sigma: f64,
+    weight: CellWeight,
     counters: Counters,
     /// Filled cells, and the cells among them that the target fills.
     filled: i64,
@@ -59,10 +93,16 @@ pub struct VolumeMatch {
 }
 
 impl VolumeMatch {
-    /// The empty scene.
+    /// The empty scene, where all cells count.
     pub fn new(target: Arc<Target>, sigma: f64) -> VolumeMatch {
-        let counters = Counters::new(target.grid().dims());
-        VolumeMatch { target, sigma, counters, filled: 0, inside: 0, bag: Bag::default() }
+        let (weight, counters) = (CellWeight::default(), Counters::new(target.grid().dims()));
+        VolumeMatch { target, sigma, weight, counters, filled: 0, inside: 0, bag: Bag::default() }
+    }
+
+    /// Makes the cells of `weight` count.
+    #[must_use]
+    pub fn weighted(self, weight: CellWeight) -> VolumeMatch {
+        VolumeMatch { weight, ..self }
     }
 
     /// Number of cells that are filled in both or empty in both.
@@ -73,9 +113,23 @@ impl VolumeMatch {
         self.target.grid().len() as i64 - missing - surplus
     }
 
-    /// Share of the domain's cells that are equal in scene and target.
+    /// Share of the cells that count and are equal in scene and target.
     pub fn similarity(&self) -> f64 {
-        self.matched() as f64 / self.target.grid().len() as f64
+        match self.weight {
+            CellWeight::Cells => self.matched() as f64 / self.target.grid().len() as f64,
+            CellWeight::Balanced => {
+                let either = self.target.filled() as i64 + self.filled - self.inside;
+                self.inside as f64 / either as f64
+            }
+        }
+    }
+
+    /// Standard deviation of the similarity.
+    fn deviation(&self) -> f64 {
+        match self.weight {
+            CellWeight::Cells => self.sigma,
+            CellWeight::Balanced => BALANCED_DEVIATIONS * self.sigma,
+        }
     }
 
     /// Number of cells that the scene fills.
@@ -109,6 +163,7 @@ impl Clone for VolumeMatch {
         VolumeMatch {
             target: self.target.clone(),
             sigma: self.sigma,
+            weight: self.weight,
             counters: self.counters.clone(),
             filled: self.filled,
             inside: self.inside,
@@ -118,7 +173,7 @@ impl Clone for VolumeMatch {
 
     fn clone_from(&mut self, source: &VolumeMatch) {
         share(&mut self.target, &source.target);
-        self.sigma = source.sigma;
+        (self.sigma, self.weight) = (source.sigma, source.weight);
         self.counters.clone_from(&source.counters);
         self.filled = source.filled;
         self.inside = source.inside;
@@ -129,7 +184,7 @@ impl Clone for VolumeMatch {
 impl PartialEq for VolumeMatch {
     fn eq(&self, other: &VolumeMatch) -> bool {
         Arc::ptr_eq(&self.target, &other.target)
-            && self.sigma == other.sigma
+            && (self.sigma, self.weight) == (other.sigma, other.weight)
             && (self.filled, self.inside) == (other.filled, other.inside)
             && self.counters == other.counters
             && self.bag == other.bag
@@ -189,7 +244,7 @@ impl Sketch for VolumeMatch {
     }
 
     fn log_score(&self) -> f64 {
-        log_normal(self.similarity(), 1.0, self.sigma) + log_normal(self.overshoot(), 0.0, self.sigma)
+        log_normal(self.similarity(), 1.0, self.deviation()) + log_normal(self.overshoot(), 0.0, self.sigma)
     }
 
     fn measures(&self) -> Vec<(&'static str, f64)> {

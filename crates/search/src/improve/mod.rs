@@ -12,28 +12,30 @@
 //!
 //! A search is stored between two rounds (`stored`); if it is killed earlier, its first population starts again.
 //!
-//! Several different results are the ends of several smaller searches, side by side.
+//! Several different results are the best of several kinds, from an archive (`archive`).
 
+mod archive;
 mod rounds;
 mod start;
 mod stored;
 
 pub use rounds::{Kind, Round};
 
+use archive::By;
 use niwaki_chain::form::Form;
 use niwaki_math::RngCore;
-use niwaki_particles::distinct::Choices;
-use niwaki_particles::{Progress, Watch, side_by_side};
+use niwaki_particles::{Progress, Watch};
 use niwaki_propose::proposal::Proposal;
 use niwaki_run::checkpoint::Checkpoint;
 use niwaki_run::failure::Attempt;
 use niwaki_run::losses::Lost;
 use niwaki_run::run::{Run, Shown};
-use niwaki_run::setting::{COUNT, POSITIVE, Range, Ranges, whole};
+use niwaki_run::setting::{COUNT, FROM_ZERO, POSITIVE, Range, Ranges, whole};
 use niwaki_run::streams::Reserved;
 use niwaki_run::{Failure, Task};
 use rounds::Search;
 use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use stored::Stored;
@@ -44,11 +46,6 @@ const USUAL_ROUNDS: u64 = 15;
 const LEAST_GAIN: f64 = 0.01;
 /// Number of rounds without a gain after which a search ends; after half of all rounds, if that is more.
 const PATIENCE: u64 = 20;
-/// The share of the particles for each of several searches for different results.
-const SHARE: f64 = 0.6;
-/// Most batches of searches; further ones are made while results are missing because some are alike.
-const BATCHES: usize = 3;
-
 /// The settings.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -65,6 +62,15 @@ pub struct Improve {
     seconds: Option<f64>,
     /// The number of different results.
     diverse: Option<usize>,
+    /// The rule by which they differ.
+    #[serde(default)]
+    by: By,
+    /// Most nats below the best for a result of another kind to come before a second one of a kind.
+    #[serde(default)]
+    within: Option<f64>,
+    /// The number of bins of a real value.
+    #[serde(default = "usual_bins")]
+    bins: usize,
     /// The proposal that draws choices in place of the prior, as data.
     pub(crate) proposal: Option<Form>,
     /// The proposal that draws choices in place of the prior.
@@ -90,6 +96,10 @@ pub struct Improved {
     pub rounds: Vec<Round>,
     /// The number of searches.
     pub searches: usize,
+    /// The kinds of several results, or what else tells them apart: names with values.
+    pub kinds: Vec<BTreeMap<String, String>>,
+    /// The number of kinds in the archive of a search for several results.
+    pub niches: usize,
     /// Whether the search was stopped.
     pub interrupted: bool,
     /// Particles of the first surviving population that became impossible.
@@ -105,6 +115,8 @@ impl Improve {
         ("rounds", Range::Optional(&COUNT)),
         ("seconds", Range::Optional(&POSITIVE)),
         ("diverse", Range::Optional(&COUNT)),
+        ("within", Range::Optional(&FROM_ZERO)),
+        ("bins", COUNT),
     ];
 
     /// A setting and the rule that it breaks.
@@ -129,57 +141,7 @@ impl Improve {
         let improve = Improve { drawn_by: proposal, ..self.clone() };
         match improve.diverse {
             None => improve.single(task, seed, 0, outputs, watch).map(|(best, info)| (vec![best], info)),
-            Some(count) => improve.several(task, seed, count, outputs, watch),
-        }
-    }
-
-    /// Different results, from searches with a share of the particles.
-    fn several(
-        &self,
-        task: &Task,
-        seed: u64,
-        count: usize,
-        outputs: Outputs<'_>,
-        watch: &mut Watch<'_>,
-    ) -> Result<(Vec<Run>, Improved), Failure> {
-        let particles = (SHARE * self.particles as f64).ceil() as usize;
-        let smaller = Improve { particles, diverse: None, ..self.clone() };
-        let task = &task.shared_by(count);
-        let (mut ends, mut failed, mut searches, mut chosen) = (vec![], None, 0, vec![]);
-        for _ in 0..BATCHES {
-            let missing = count - chosen.len();
-            let seeds = searches..searches + missing;
-            let (results, is_stopped) = side_by_side(missing, watch, |number, watch| {
-                let part = (seeds.start + number) as u64;
-                smaller.single(task, part_seed(seed, part, 2), part, outputs, watch)
-            });
-            searches = seeds.end;
-            for result in results {
-                match result {
-                    Ok(end) => ends.push(end),
-                    Err(failure) if failure.is_impossible() => failed = failed.or(Some(failure)),
-                    Err(failure) => return Err(failure),
-                }
-            }
-            ends.sort_by(|a, b| b.0.log_score.total_cmp(&a.0.log_score));
-            let ranked: Vec<usize> = (0..ends.len()).collect();
-            chosen = Choices::of(ends.iter().map(|(run, _)| &run.log)).choose(&ranked, count);
-            if chosen.len() >= count || is_stopped {
-                break;
-            }
-        }
-        let mut runs = vec![];
-        let mut info = None;
-        for (number, (run, report)) in ends.into_iter().enumerate() {
-            let info = info.get_or_insert(report);
-            info.searches = searches;
-            if chosen.contains(&number) {
-                runs.push(run);
-            }
-        }
-        match info {
-            Some(info) => Ok((runs, info)),
-            None => Err(failed.unwrap_or_else(Failure::no_start)),
+            Some(count) => archive::search(&improve, task, seed, count, outputs, watch),
         }
     }
 
@@ -255,6 +217,11 @@ impl Improve {
         }
         Ok((search.best, info))
     }
+}
+
+/// The number of bins of a real value where none is given.
+fn usual_bins() -> usize {
+    10
 }
 
 /// The seed of a population by its number; the first has the seed of the search.

@@ -87,6 +87,13 @@ pub(super) struct Stored<R> {
     spent: [u64; Kind::ALL.len()],
 }
 
+/// What a search has learnt of its steps, for a search that goes on elsewhere.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct Learnt {
+    gains: [Option<u64>; Kind::ALL.len()],
+    spent: [u64; Kind::ALL.len()],
+}
+
 /// The search while it runs.
 pub(super) struct Search<'a> {
     task: &'a Task,
@@ -131,6 +138,32 @@ impl<'a> Search<'a> {
         let population = Kind::ALL.len() - 1;
         (gains[population], spent[population]) = (Some(0.0), unit);
         Ok(Search { task, improve, seed, slice, spreads, best, state, populations, gains, spent })
+    }
+
+    /// A search from a run and a chain's state at it, with rounds of this work, and with what another search has learnt.
+    #[expect(clippy::too_many_arguments, reason = "the state of a search")]
+    pub fn at(
+        improve: &'a Improve,
+        task: &'a Task,
+        seed: u64,
+        slice: u64,
+        (best, state): (Run, State),
+        learnt: Option<Learnt>,
+        spreads: HashMap<u128, f64>,
+    ) -> Search<'a> {
+        let (mut gains, mut spent) = ([None; Kind::ALL.len()], [0; Kind::ALL.len()]);
+        // Whoever starts such a search makes populations elsewhere.
+        let population = Kind::ALL.len() - 1;
+        (gains[population], spent[population]) = (Some(0.0), slice * PER_POPULATION);
+        if let Some(learnt) = learnt {
+            (gains, spent) = (learnt.gains.map(|gain| gain.map(f64::from_bits)), learnt.spent);
+        }
+        Search { task, improve, seed, slice, spreads, best, state: Some(state), populations: 1, gains, spent }
+    }
+
+    /// What the search has learnt of its steps.
+    pub fn learnt(&self) -> Learnt {
+        Learnt { gains: self.gains.map(|gain| gain.map(f64::to_bits)), spent: self.spent }
     }
 
     /// The search as data, between two rounds; `None` if it was stopped before its first round.
@@ -298,7 +331,10 @@ fn with_value(task: &Task, run: Run) -> std::result::Result<Run, Failure> {
 }
 
 /// The best run of a population, and a chain's state at this run.
-fn best_of(task: &Task, result: Result) -> std::result::Result<(Run, State), Failure> {
+///
+/// # Errors
+/// No run has ended, or a fault of the program.
+pub(super) fn best_of(task: &Task, result: Result) -> std::result::Result<(Run, State), Failure> {
     let best = most(result, |run| run.has_ended).ok_or_else(Failure::no_start)?;
     let known = by_address(&best.log.entries());
     let (state, _) = State::start(task, Streams::new(0, 0), 1, Some(&known))?;

@@ -63,7 +63,7 @@ impl Stored<Run> {
         });
         let attempts = attempts.collect();
         let info =
-            Improved { attempts, rounds: self.rounds, searches: 1, interrupted: false, lost: self.lost };
+            Improved { attempts, rounds: self.rounds, searches: 1, lost: self.lost, ..Improved::default() };
         let search = Search::restored(improve, task, seed, self.search)?;
         task.invalid.add(self.invalid);
         Ok((search, info, self.number, self.idle))

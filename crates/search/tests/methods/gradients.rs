@@ -277,6 +277,22 @@ fn densities_without_gradient_fail_with_the_line() {
 }
 
 #[test]
+fn equal_rows_of_parameters_keep_slopes_of_their_own() {
+    let task = task(
+        "(set $a (sample (dist gaussian 0 1))) (set $b (sample (dist gaussian 0 1)))
+         (do (observe (dist categorical (list 1.0 (exp $a))) 1))
+         (do (observe (dist categorical (list 1.0 (exp $b))) 1)) (return $a)",
+    );
+    let equal = choices(&task, 1).into_keys().map(|address| (address, Value::Real(0.4))).collect();
+    let recorded = record(&task, &equal).expect("a density");
+    let mut g = [0.0; 2];
+    recorded.density.interpret(&recorded.start, &mut g);
+    // The log density of each choice is -x^2 / 2 + x - ln(1 + e^x), but for a constant.
+    let slope = 1.0 - 0.4 - 1.0 / (1.0 + (-0.4_f64).exp());
+    assert!(g.iter().all(|g| (g - slope).abs() < 1e-12), "{g:?}, expected {slope}");
+}
+
+#[test]
 fn densities_are_equal_with_and_without_machine_code() {
     let task = task(CORNER);
     let mut live = live(&task, &choices(&task, 1)).expect("a density");

@@ -249,10 +249,10 @@ impl<S: Scalar> Machine<'_, S> {
     #[inline]
     pub(super) fn empty_scratch(&mut self) {
         self.pure.clear();
-        for value in &mut self.scratch[..self.high] {
-            if !value.is_plain() {
-                *value = Value::None;
-            }
+        if self.holds_shared {
+            self.holds_shared = false;
+            let shared = self.scratch[..self.high].iter_mut().filter(|value| !value.is_plain());
+            shared.for_each(|value| *value = Value::None);
         }
         // After a deep recursion, most of the registers are not needed again.
         self.high = self.high.min(SCRATCH);

@@ -1,15 +1,16 @@
 //! A cache of distributions by the list or tuple of their parameters. A categorical distribution over the
 //! weights of a mixture is built once, not for each point.
 //!
-//! An entry owns the parameters of its distribution, so that an equal address in memory means equal parameters.
+//! The place of an entry follows from the numbers of the parameters, not from their address in memory: what is built
+//! again, and with it the time of a run, is the same in each process. An entry owns its parameters, so that an equal
+//! address means equal parameters.
 
 use crate::builtins::make_dist;
 use crate::fault::Fault;
 use crate::value::Value;
 use niwaki_math::{Dist, Family, Scalar};
 
-/// Entries of the table; the address in memory selects two neighbours. With one entry for each address, the
-/// parameters that evict each other would depend on their places in memory, and with them the time of a run.
+/// Entries of the table, a power of two; the first and the last parameter select two neighbours.
 const ENTRIES: usize = 512;
 
 /// The fewest bytes that the cache may hold.
@@ -45,17 +46,17 @@ impl<S: Scalar> DistCache<S> {
         Self::bytes_of(value) <= self.most
     }
 
-    /// The index of the entry for a value with an address in memory: the entry of this value, else the entry to
-    /// fill.
+    /// The index of the entry for a list or tuple: the entry of this value, else the entry to fill.
     #[inline]
     pub fn index(&self, value: &Value<S>) -> Option<usize> {
-        let address = match value {
-            Value::Tuple(tuple) => tuple.address(),
-            Value::List(list) => list.address(),
+        let row = match value {
+            Value::Tuple(tuple) => tuple.items(),
+            Value::List(list) => list.chunk(0),
             _ => return None,
         };
-        // Allocations are multiples of sixteen bytes, and larger ones are further apart.
-        let first = (address >> 4 ^ address >> 10) % ENTRIES;
+        let bits = row.first().map_or(0, bits_of) ^ row.last().map_or(0, bits_of).rotate_left(32);
+        // All bits of both numbers reach the highest ones of the product by the golden ratio.
+        let first = (bits.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> (u64::BITS - ENTRIES.ilog2())) as usize;
         match self.entries.get(first) {
             Some(Some((_, known, _))) if !is_same(known, value) => Some(self.beside(first, value)),
             _ => Some(first),
@@ -112,12 +113,81 @@ impl<S: Scalar> DistCache<S> {
     }
 }
 
-/// Whether two values are one object in memory.
+/// The bits of a number; of any other parameter, nothing.
+#[inline]
+fn bits_of<S: Scalar>(parameter: &Value<S>) -> u64 {
+    match parameter {
+        Value::Real(x) => x.value().to_bits(),
+        Value::Int(n) => *n as u64,
+        _ => 0,
+    }
+}
+
+/// Whether two values have the same distributions: they are one object in memory, or rows of the same numbers.
 #[inline]
 fn is_same<S: Scalar>(a: &Value<S>, b: &Value<S>) -> bool {
     match (a, b) {
-        (Value::Tuple(a), Value::Tuple(b)) => a.ptr_eq(b),
-        (Value::List(a), Value::List(b)) => a.ptr_eq(b),
+        (Value::Tuple(a), Value::Tuple(b)) => a.ptr_eq(b) || are_same(a.items(), b.items()),
+        (Value::List(a), Value::List(b)) => {
+            a.ptr_eq(b) || a.len() == b.len() && are_same(a.chunk(0), b.chunk(0)) && a.len() == a.chunk(0).len()
+        }
         _ => false,
+    }
+}
+
+/// Whether two rows have the same numbers. A number whose slope is recorded is the same only as the same object.
+fn are_same<S: Scalar>(a: &[Value<S>], b: &[Value<S>]) -> bool {
+    let same = |(a, b): (&Value<S>, &Value<S>)| match (a, b) {
+        (Value::Real(x), Value::Real(y)) => {
+            x.value().to_bits() == y.value().to_bits() && !x.varies() && !y.varies()
+        }
+        (Value::Int(x), Value::Int(y)) => x == y,
+        _ => false,
+    };
+    a.len() == b.len() && a.iter().zip(b).all(same)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A list of its own in memory.
+    fn list(numbers: &[f64]) -> Value {
+        Value::list(numbers.iter().map(|x| Value::Real(*x)).collect())
+    }
+
+    fn place(cache: &DistCache<f64>, value: &Value) -> usize {
+        cache.index(value).expect("a list or a tuple")
+    }
+
+    #[test]
+    fn equal_rows_share_a_distribution_wherever_they_are() {
+        let mut cache = DistCache::holding(1 << 20);
+        let rows: Vec<Value> = (0..50).map(|_| list(&[0.5, 0.3, 0.2])).collect();
+        let at = place(&cache, &rows[0]);
+        cache.build(at, Family::Categorical, &rows[0]).expect("weights");
+        for row in &rows {
+            assert_eq!(place(&cache, row), at);
+            assert!(cache.holds(at, Family::Categorical, row));
+            assert!(!cache.holds(at, Family::Dirichlet, row));
+        }
+        for other in [[0.5, 0.2, 0.2], [0.5, 0.3, 0.3]] {
+            let other = list(&other);
+            assert!(!cache.holds(place(&cache, &other), Family::Categorical, &other));
+        }
+        let whole = Value::list(vec![Value::Int(1), Value::Int(2)]);
+        assert!(!is_same(&whole, &list(&[1.0, 2.0])) && !is_same(&list(&[0.0]), &list(&[-0.0])));
+    }
+
+    #[test]
+    fn rows_are_spread_over_the_entries() {
+        let cache = DistCache::holding(1 << 20);
+        // Rows of short numbers, whose bits differ at their upper ends only.
+        let rows = (0..16).flat_map(|a| (0..16).map(move |b| list(&[f64::from(a), 1.0, f64::from(b) / 4.0])));
+        let mut places: Vec<usize> = rows.map(|row| place(&cache, &row)).collect();
+        assert!(places.iter().all(|at| *at < ENTRIES));
+        places.sort_unstable();
+        places.dedup();
+        assert!(places.len() > 180, "{} places of 256 rows", places.len());
     }
 }

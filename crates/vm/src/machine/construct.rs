@@ -89,7 +89,7 @@ impl<S: Scalar> Machine<'_, S> {
                             }
                             item => {
                                 let item = item.clone();
-                                put(keep, state, &mut self.scratch, r, *o, item);
+                                put(keep, state, (&mut self.scratch, &mut self.holds_shared), r, *o, item);
                             }
                         }
                     }
@@ -104,7 +104,7 @@ impl<S: Scalar> Machine<'_, S> {
                     ));
                 }
                 for (k, o) in f.operands[to.range()].iter().enumerate() {
-                    put(keep, state, &mut self.scratch, r, *o, iter_get(&value, k));
+                    put(keep, state, (&mut self.scratch, &mut self.holds_shared), r, *o, iter_get(&value, k));
                 }
                 return Ok(());
             }
@@ -128,7 +128,7 @@ impl<S: Scalar> Machine<'_, S> {
                             Value::list((star..star + rest).map(|j| iter_get(&value, j)).collect())
                         }
                     };
-                    put(keep, state, &mut self.scratch, r, *o, item);
+                    put(keep, state, (&mut self.scratch, &mut self.holds_shared), r, *o, item);
                 }
                 return Ok(());
             }
@@ -144,7 +144,7 @@ impl<S: Scalar> Machine<'_, S> {
         if !matches!(op, Op::Field { .. }) {
             self.charge(state, keep, Price { steps: 0, bytes: value.own_bytes() })?;
         }
-        put(keep, state, &mut self.scratch, r, to, value);
+        put(keep, state, (&mut self.scratch, &mut self.holds_shared), r, to, value);
         Ok(())
     }
 }

@@ -152,7 +152,10 @@ impl<S: Scalar> Machine<'_, S> {
                 Kind::Bool => register.store(Value::Bool(word != 0)),
                 Kind::None | Kind::Opaque => register.store(Value::None),
                 Kind::Unset => register.store(Value::Unset),
-                Kind::Range | Kind::Object(_) => register.store(objects.next().unwrap_or_default()),
+                Kind::Range | Kind::Object(_) => {
+                    self.holds_shared = true;
+                    register.store(objects.next().unwrap_or_default());
+                }
                 Kind::Fresh { form, parts, number } => {
                     let known =
                         fresh.iter().find(|(other, _)| other == number).map(|(_, value)| value.clone());
@@ -161,6 +164,7 @@ impl<S: Scalar> Machine<'_, S> {
                         fresh.push((*number, value.clone()));
                         value
                     });
+                    self.holds_shared = true;
                     register.store(value);
                 }
             }

@@ -63,6 +63,11 @@ impl<S: Scalar> Held<S> {
         self.choices.is_empty()
     }
 
+    /// The readable addresses and the values.
+    pub fn choices(&self) -> &[(String, Value<S>)] {
+        &self.choices
+    }
+
     /// The number and the value of the held choice at an address.
     #[inline]
     pub fn find(&self, address: u128) -> Option<(u32, &Value<S>)> {

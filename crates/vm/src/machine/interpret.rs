@@ -48,6 +48,7 @@ impl<S: Scalar> Machine<'_, S> {
             for i in 0..args {
                 self.scratch[i] = state.registers[i].clone();
             }
+            self.holds_shared = true;
         }
 
         macro_rules! r {
@@ -73,7 +74,7 @@ impl<S: Scalar> Machine<'_, S> {
         macro_rules! put {
             ($o:expr, $v:expr) => {{
                 let value = $v;
-                put(keep, state, &mut self.scratch, r!(), $o, value);
+                put(keep, state, (&mut self.scratch, &mut self.holds_shared), r!(), $o, value);
             }};
         }
         macro_rules! check {
@@ -189,13 +190,12 @@ impl<S: Scalar> Machine<'_, S> {
         macro_rules! arithmetic {
             ($op:expr, $to:expr, $a:expr, $b:expr) => {{
                 let (a, b) = (get!($a), get!($b));
-                let real = match (a, b) {
-                    (Value::Real(x), Value::Real(y)) => operate::reals($op, *x, *y),
-                    (Value::Real(x), Value::Int(n)) => operate::reals($op, *x, S::from_f64(*n as f64)),
-                    (Value::Int(n), Value::Real(y)) => operate::reals($op, S::from_f64(*n as f64), *y),
-                    _ => None,
-                };
-                if let Some(z) = real {
+                // Most operands are two real numbers, which are looked for first.
+                if let (Value::Real(x), Value::Real(y)) = (a, b)
+                    && let Some(z) = operate::reals($op, *x, *y)
+                {
+                    slot!($to, store_real, Value::Real, z);
+                } else if let Some(z) = operate::mixed($op, a, b) {
                     slot!($to, store_real, Value::Real, z);
                 } else if let (Value::Int(x), Value::Int(y)) = (a, b)
                     && let Some(z) = operate::ints($op, *x, *y)
@@ -217,6 +217,7 @@ impl<S: Scalar> Machine<'_, S> {
                 code = &f.code;
                 let deeper = self.reserve(scratch + f.scratch_registers as usize);
                 for (i, value) in self.buffer.drain(..).enumerate() {
+                    self.holds_shared |= !value.is_plain();
                     self.scratch[scratch + i].store(value);
                 }
                 if deeper {

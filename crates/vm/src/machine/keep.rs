@@ -135,12 +135,13 @@ pub(super) trait Keep<S: Scalar>: Sized {
     fn count_bytes<'v>(&'v self, census: &mut Census<'v, S>);
 }
 
-/// Puts a value into a register of the activation or of the machine.
+/// Puts a value into a register of the activation or of the machine. It is noted if a register may hold shared data: those of
+/// the machine are emptied after the run.
 #[inline(always)]
 pub(super) fn put<S: Scalar, K: Keep<S>>(
     keep: &mut K,
     state: &mut State<S>,
-    scratch: &mut [Value<S>],
+    (scratch, holds_shared): (&mut [Value<S>], &mut bool),
     r: Registers<'_, S>,
     o: Operand,
     value: Value<S>,
@@ -148,7 +149,8 @@ pub(super) fn put<S: Scalar, K: Keep<S>>(
     if K::KEEPS && o.is_node() {
         keep.write(state, r.base + o.index(), value);
     } else {
-        r.put(state, scratch, o, value);
+        *holds_shared |= !o.is_node() && !value.is_plain();
+        r.slot(state, scratch, o).store(value);
     }
 }
 

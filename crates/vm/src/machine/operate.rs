@@ -34,6 +34,16 @@ pub(super) fn ints(op: Binary, a: i64, b: i64) -> Option<i64> {
     }
 }
 
+/// Combines a real and a whole number in the most frequent ways.
+#[inline(always)]
+pub(super) fn mixed<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Option<S> {
+    match (a, b) {
+        (Value::Real(x), Value::Int(n)) => reals(op, *x, S::from_f64(*n as f64)),
+        (Value::Int(n), Value::Real(y)) => reals(op, S::from_f64(*n as f64), *y),
+        _ => None,
+    }
+}
+
 /// Combines any two values.
 #[inline(never)]
 pub(super) fn values<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Result<Value<S>, Fault> {

@@ -128,12 +128,13 @@ impl<S: Scalar> Machine<'_, S> {
         node: NodeId,
         site: &Site,
     ) -> Result<(), Halt> {
+        let args = site.parameters();
         if let SiteKind::Sample(Source::Family(family)) = site.kind {
-            self.charge_rows(state, &Dropped, r, site.parameters(), family)?;
+            self.charge_rows(state, &Dropped, r, args, family)?;
         }
         let (program, mut built) = (self.program, None);
         let held = self.held;
-        let dist = self.dist(state, r, site, site.parameters(), &mut built)?;
+        let dist = self.dist(state, r, site, args, &mut built)?;
         if let Some(held) = held
             && let Some((number, value)) = held.find(join(state.nodes[node.0 as usize].path, site.key))
         {

@@ -22,20 +22,20 @@ pub(super) struct Registers<'a, S: Scalar> {
 impl<'a, S: Scalar> Registers<'a, S> {
     /// The value of an operand.
     // The most frequent cases are tested first: a `match` becomes a jump through a table, which the processor
-    // predicts less well. An operand of the first class is its own index.
+    // predicts less well. An operand of the first class is its own index. A sum that wrapped would be out of bounds.
     #[inline(always)]
     pub fn get<'b>(self, state: &'b State<S>, scratch: &'b [Value<S>], o: Operand) -> &'b Value<S>
     where
         'a: 'b,
     {
         if o.is_node() {
-            &state.registers[self.base + o.0 as usize]
+            &state.registers[self.base.wrapping_add(o.0 as usize)]
         } else if o.is_outer() {
-            &state.registers[self.outer + o.index()]
+            &state.registers[self.outer.wrapping_add(o.index())]
         } else if o.is_constant() {
             &self.f.constants[o.index()]
         } else {
-            &scratch[self.scratch + o.index()]
+            &scratch[self.scratch.wrapping_add(o.index())]
         }
     }
 
@@ -48,16 +48,10 @@ impl<'a, S: Scalar> Registers<'a, S> {
         o: Operand,
     ) -> &'b mut Value<S> {
         if o.is_node() {
-            &mut state.registers[self.base + o.0 as usize]
+            &mut state.registers[self.base.wrapping_add(o.0 as usize)]
         } else {
-            &mut scratch[self.scratch + o.index()]
+            &mut scratch[self.scratch.wrapping_add(o.index())]
         }
-    }
-
-    /// Puts a value into a register.
-    #[inline(always)]
-    pub fn put(self, state: &mut State<S>, scratch: &mut [Value<S>], o: Operand, value: Value<S>) {
-        self.slot(state, scratch, o).store(value);
     }
 
     /// Copies a sequence of operands.

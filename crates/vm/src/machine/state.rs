@@ -417,10 +417,7 @@ impl<S: Scalar> State<S> {
         let (function, at) = (node.function, node.registers as usize);
         let count = program.function(function).node_registers as usize;
         let registers = &mut self.registers[at..at + count];
-        // Most activations hold numbers only: a first pass detects that without writing.
-        if registers.iter().fold(false, |shared, value| shared | !value.is_plain()) {
-            registers.iter_mut().filter(|value| !value.is_plain()).for_each(|value| *value = Value::None);
-        }
+        registers.iter_mut().filter(|value| !value.is_plain()).for_each(|value| *value = Value::None);
     }
 
     /// Stops a future at an instruction of a node, to continue there later.

@@ -83,6 +83,8 @@ pub struct Machine<'p, S: Scalar = f64> {
     pub(super) scratch: Vec<Value<S>>,
     /// The number of scratch registers that were used since they were emptied.
     pub(super) high: usize,
+    /// Whether one of these may hold shared data.
+    pub(super) holds_shared: bool,
     pub(super) pure: Vec<PureCall>,
     pub(super) buffer: Vec<Value<S>>,
     /// The words that machine code and the machine exchange.
@@ -105,6 +107,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
             together: None,
             scratch: Vec::new(),
             high: 0,
+            holds_shared: false,
             pure: Vec::new(),
             buffer: Vec::new(),
             words: Vec::new(),

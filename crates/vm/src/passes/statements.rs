@@ -8,7 +8,7 @@ use super::CompileError;
 use super::emit::{Binding, Builder, Environment, LoopContext, Result, VALUES};
 use crate::code::{Function, FunctionId, Loop, Mode, Op, Operand, Place, SiteKind, exit};
 use crate::core::visit::{Names, assigned, in_order_of_assignment, returns};
-use crate::core::{Expr, LOOK, Literal, Name, Stmt, StmtKind, readable};
+use crate::core::{Expr, ExprKind, LOOK, Literal, Name, Stmt, StmtKind, readable};
 use niwaki_math::Scalar;
 
 impl<S: Scalar> Builder<'_, '_, S> {
@@ -38,6 +38,12 @@ impl<S: Scalar> Builder<'_, '_, S> {
             StmtKind::Set(x, e) => {
                 let at = self.expr(e)?;
                 self.assign(x, at);
+                true
+            }
+            // Each name is bound to a part; no tuple is made.
+            StmtKind::Unpack(xs, Expr { kind: ExprKind::Tuple(parts), .. }) if parts.len() == xs.len() => {
+                let all = self.exprs(parts)?;
+                xs.iter().zip(all).for_each(|(x, at)| self.assign(x, at));
                 true
             }
             StmtKind::Unpack(xs, e) => {

@@ -17,10 +17,27 @@ CHAINS = (
     Message(
         "no-address",
         "`{pattern}` matches no choice of `{name}`",
-        why="a pattern without `/` must match the last part of an address, and a pattern with `/` the whole address",
-        help="the nearest are {nearest}",
+        why="a pattern without `/` must match the last part of an address, a pattern with `/` the whole address, and a label the "
+        "last steps of one",
+        help="{nearest}",
         example='kernels.on("widht", kernels.drift())',
         cure='kernels.on("width", kernels.drift())',
+    ),
+    Message(
+        "ambiguous-label",
+        "`{label}` is a name of several choices of `{name}`",
+        why="a label stands for a choice if no other choice has it",
+        help="write one of these addresses: {addresses}",
+        example='run(tower, hold={"height": 2.0})',
+        cure='run(tower, hold={"Storey 1 › height": 2.0})',
+    ),
+    Message(
+        "held-twice",
+        "the choice `{address}` is held at two values",
+        why="`{first}` and `{second}` name the same choice",
+        help="leave out one of the two",
+        example="niwaki grow house.py --hold width=2 --hold Width=3",
+        cure="niwaki grow house.py --hold width=3",
     ),
     Message(
         "in-use",

@@ -14,6 +14,14 @@ FITTING = (
         cure="def bracket(width=niwaki.Uniform(20, 80), holes=niwaki.DiscreteUniform(0, 6)): ...",
     ),
     Message(
+        "no-emulator",
+        "the emulator cannot search `{name}`",
+        why="{reason}",
+        help='leave out `engine` and `evaluations`, or write `engine="sampler"`: particles search every model',
+        example='niwaki.grow(tower, target, engine="emulator"), of a model with `uniform(0, height)` of a drawn height',
+        cure="share = niwaki.uniform(0, 1)        # and share * height in the model",
+    ),
+    Message(
         "bad-command",
         "this command cannot make a mesh: {reason}",
         why="each evaluation writes the values of the parameters into the words of the command, runs it, and reads the file "

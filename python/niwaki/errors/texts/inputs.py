@@ -187,7 +187,7 @@ INPUTS = (
         "`{pattern}` matches no part of `{name}`",
         why="a part is a call or an iteration of a loop with choices; a pattern without `/` must match the last part of "
         "an address, and a pattern with `/` the whole address",
-        help="the nearest are {parts}",
+        help="{parts}",
         example='result.regrow("wnig[1]")',
         cure='result.regrow("wing[1]")',
     ),

@@ -22,6 +22,14 @@ SHELL = (
         cure="niwaki grow ship -o out --force",
     ),
     Message(
+        "bad-requirements",
+        "`{path}` does not describe requirements",
+        why="{reason}",
+        help="write `covered`, `outside`, `height`, `thinnest`, `stands` and `collisions` as needed, each at most once",
+        example="height = [3.0, 2.0]",
+        cure="height = [2.0, 3.0]",
+    ),
+    Message(
         "every-run-impossible",
         "none of {count} runs of `{name}` is possible",
         why="each run breaks a constraint of the model: {constraint}",

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from niwaki import _engine
 from niwaki.errors import InputError
 from niwaki.errors.settings import bad
+from niwaki.lang import lookup
 from niwaki.lang.compiled import translated
 from niwaki.once import cached_property
 from niwaki.result import Sample, parts
@@ -99,9 +100,7 @@ class Held:
             self.start = State(trace, self.task.placer(trace.run), "")
         scene = [address for address, _ in trace.parts]
         if not scene:
-            raise InputError(
-                "no-address", pattern=part, name=search.model.name, nearest="none: it has no part"
-            )
+            raise InputError("no-address", pattern=part, name=search.model.name, nearest="there is no part")
         boxes = np.array([shape.aabb() for _, shapes in trace.parts for shape in shapes])
         self.size = float((boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)).max()) or 1.0
         kept = sample._held(hold)
@@ -127,10 +126,10 @@ class Held:
         numbers = {n for n, address in enumerate(scene) if _engine.matches(part, address)}
         if not numbers:
             choices = [choice.path for choice in trace.choices if choice.family != "delta"]
-            calls = parts.matching_parts(part, choices, scene, self.search.model.name)
+            calls = parts.matching_parts(part, choices, scene, self.search.model)
             numbers = {n for n, place in enumerate(scene) if any(place.startswith(f"{c}/") for c in calls)}
         if not numbers:
-            near = ", ".join(f"`{name}`" for name in _engine.nearest(part, scene))
+            near = lookup.nearest(self.search.model.labels, part, scene, "part")
             raise InputError("no-address", pattern=part, name=self.search.model.name, nearest=near)
         free = {choice.address for choice in trace.choices}
         # A part whose choices are held is placed, too; the reason then names the held choices.

@@ -16,8 +16,10 @@ from niwaki.studio.messages.document import (
     Key,
     Number,
     Point,
+    Seed,
     Settings,
     Strength,
+    TargetAsk,
     Text,
 )
 
@@ -67,6 +69,93 @@ class Set(Command, tag="set"):
 
     arguments: Annotated[dict[str, Any], Meta(max_length=200)] | None = None
     settings: SettingsChange | None = None
+
+
+class Look(Command, tag="look"):
+    """Request fields of the state by name, such as `models`, `targets` or `results`."""
+
+    fields: Annotated[list[Text], Meta(min_length=1, max_length=40)] = field(
+        default_factory=lambda: [
+            "model",
+            "arguments",
+            "ask",
+            "settings",
+            "results",
+            "picked",
+            "held",
+            "problem",
+        ]
+    )
+
+
+class Read(Command, tag="read"):
+    """Read a text file below the folder that was named at the start."""
+
+    path: Text
+
+
+class Write(Command, tag="write"):
+    """Write a file below the folder that was named at the start: a model (`.py`, `.scad`) or a note (`.md`).
+
+    A model is checked at once. A file of requirements belongs to a person: no message changes it.
+    """
+
+    path: Text
+    text: Annotated[str, Meta(max_length=200_000)]
+
+
+class Check(Command, tag="check"):
+    """Compile a model; report its functions and choices, advice, and the requirements that its results must keep.
+
+    Attributes
+    ----------
+    reference
+        The model; the present model when left out.
+    key
+        The result that is held against the requirements; when left out, runs without a target tell how often each of
+        them holds.
+    """
+
+    reference: Text = ""
+    key: Key | None = None
+
+
+class Preview(Command, tag="preview"):
+    """Run the present model without a target, `count` times; the answer has a picture of these runs side by side."""
+
+    count: Annotated[int, Meta(ge=1, le=12)] = 6
+    seed: Seed | None = None
+
+
+class Explain(Command, tag="explain"):
+    """Change one choice of a run of the present model, and count the calls that each strategy runs again.
+
+    Attributes
+    ----------
+    choice
+        The address of a choice, or a pattern.
+    """
+
+    choice: Address
+    seed: Seed | None = None
+
+
+class Fit(Command, tag="fit"):
+    """Fit the parameters of somebody else's model, `file.py:function` or an OpenSCAD file, to a target.
+
+    Attributes
+    ----------
+    evaluations
+        Evaluations in all; the same message with more evaluations goes on.
+    align
+        Whether the place, turn and size of the mesh are searched, too.
+    """
+
+    reference: Text
+    target: TargetAsk
+    evaluations: Annotated[int, Meta(ge=1, le=10_000)] = 100
+    seed: Seed = 0
+    align: bool = False
 
 
 class Run(Command, tag="run"):
@@ -155,10 +244,10 @@ class Describe(Command, tag="describe"):
 
 
 class Show(Command, tag="show"):
-    """Request the shape of a result."""
+    """Request the shape of a result, as a mesh (`light`, `fine`) or as a small picture (`picture`)."""
 
     key: Key
-    detail: Literal["light", "fine"] = "light"
+    detail: Literal["light", "fine", "picture"] = "light"
 
 
 class ShowDifference(Command, tag="difference"):
@@ -215,6 +304,13 @@ AnyCommand = (
     | ChooseModel
     | SetAsk
     | Set
+    | Look
+    | Read
+    | Write
+    | Check
+    | Preview
+    | Explain
+    | Fit
     | Run
     | Stop
     | HoldParts

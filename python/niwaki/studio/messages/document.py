@@ -32,7 +32,8 @@ class TargetAsk(Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     source
-        `gallery:NAME`, `upload:SHA256`, or a primitive: `box`, `ball`, `column`.
+        `gallery:NAME`, `upload:SHA256`, a primitive (`box`, `ball`, `column`), or a mesh file below the folder that was
+        named at the start.
     move, scale
         A translation in scene units, and factors along x, y and z. The solid is scaled and turned about the middle of
         its base, then moved.
@@ -201,6 +202,8 @@ class Outcome(Struct, frozen=True):
     note: str = ""
     #: These shares as a person reads them.
     fit: str = ""
+    #: The requirements beside the model that the result does not keep, in words.
+    unmet: list[str] = []
 
     def __post_init__(self) -> None:
         """Write the shares."""

@@ -6,6 +6,7 @@ from typing import Any, Literal
 
 from msgspec import Struct
 
+from niwaki.shell.reports import CheckReport, ShowReport
 from niwaki.studio.messages.document import Ask, HeldPart, Key, Outcome, Point, RulesAsk, Settings, TargetAsk
 
 
@@ -241,6 +242,55 @@ class Offer(Struct):
     label: str
     difference: str
     is_instead: bool = True
+
+
+class Looked(Event, tag="looked"):
+    """The answer to `look`: fields of the state."""
+
+    values: dict[str, Any] = {}
+
+
+class FileText(Event, tag="text"):
+    """The text of a file that was read or written."""
+
+    path: str = ""
+    text: str = ""
+
+
+class Checked(Event, tag="checked"):
+    """The answer to `check`: what `niwaki check --json` prints."""
+
+    report: CheckReport | None = None
+
+
+class Previewed(Event, tag="previewed"):
+    """The answer to `preview`: what `niwaki show --json` prints."""
+
+    report: ShowReport | None = None
+
+
+class Explained(Event, tag="explained"):
+    """The answer to `explain`: a changed choice, and the calls that each strategy runs again for it.
+
+    Attributes
+    ----------
+    calls
+        The number of calls.
+    strategies
+        Calls that are run, resumed, skipped, created and removed, by strategy.
+    """
+
+    choice: str = ""
+    before: str = ""
+    after: str = ""
+    calls: int = 0
+    strategies: dict[str, dict[str, int]] = {}
+
+
+class Fitted(Event, tag="fitted"):
+    """The answer to `fit`: what `niwaki fit --json` prints."""
+
+    report: dict[str, Any] = {}
 
 
 class Dragged(Event, tag="dragged"):

@@ -6,14 +6,18 @@ from typing import Any, Literal
 
 from msgspec import Struct
 
-from niwaki.studio.messages.document import Ask, Choices, HeldPart, Key, Outcome, Point, Settings
+from niwaki.studio.messages.document import Ask, Choices, HeldPart, Key, Outcome, Point, Settings, TargetAsk
 from niwaki.studio.messages.events import (
+    Checked,
     Described,
     Difference,
     Dragged,
+    Explained,
+    Fitted,
     Mask,
     ModelInfo,
     Offered,
+    Previewed,
     Problem,
     Shape,
     Sizes,
@@ -50,6 +54,42 @@ class Load(Job, tag="load"):
 
     reference: str
     file: str = ""
+
+
+class CheckModel(Job, tag="check"):
+    """Compile a model, and report on it; a result of `source` is held against the requirements beside the model."""
+
+    reference: str
+    arguments: dict[str, Any] = {}
+    source: str = ""
+    number: int = 0
+
+
+class PreviewRuns(Job, tag="preview"):
+    """Run a model without a target."""
+
+    question: Question
+    count: int
+    seed: int
+
+
+class ExplainChange(Job, tag="explain"):
+    """Change one choice of a run, and count the calls that each strategy runs again."""
+
+    question: Question
+    choice: str
+    seed: int
+
+
+class FitParameters(Job, tag="fit"):
+    """Fit the parameters of a model that somebody else wrote; its evaluations are stored in `folder`."""
+
+    reference: str
+    target: TargetAsk
+    evaluations: int
+    seed: int
+    align: bool
+    folder: str
 
 
 class Ghost(Job, tag="ghost"):
@@ -184,7 +224,7 @@ class ShowRun(Job, tag="show"):
     source: str
     number: int
     key: Key
-    detail: Literal["light", "fine"]
+    detail: Literal["light", "fine", "picture"]
 
 
 class FindDifference(Job, tag="difference"):
@@ -219,6 +259,10 @@ class WriteFile(Job, tag="write"):
 AnyJob = (
     ListModels
     | Load
+    | CheckModel
+    | PreviewRuns
+    | ExplainChange
+    | FitParameters
     | Ghost
     | Glimpse
     | Grow
@@ -278,6 +322,10 @@ AnyReport = (
     | Progressed
     | Shape
     | Described
+    | Checked
+    | Previewed
+    | Explained
+    | Fitted
     | Difference
     | Dragged
     | Offered

@@ -13,6 +13,9 @@ that is clicked, a slider, a file) goes to the other worker, so a search never m
 - `reshaping`  new forms of a result: a part grown again, a choice with a new value
 - `dragging`   dragged parts
 - `rewriting`  changes of the model's file
+- `root`       the folder below which commands may name files
+- `files`      files that are read and written
+- `reporting`  fields of the state; reports on models
 - `showing`    choices and shapes of a result; the check of a structure
 - `exporting`  files
 """

@@ -10,6 +10,7 @@ import msgspec
 from niwaki.studio import messages as m
 from niwaki.studio.frames import frame
 from niwaki.studio.session import reshaping
+from niwaki.studio.session.root import is_program
 from niwaki.studio.session.state import CommandError, Session
 from niwaki.studio.window import Window, newest
 
@@ -81,7 +82,9 @@ def choose_model(session: Session, window: Window, command: m.ChooseModel) -> No
 
 
 def _of_named_file(session: Session, reference: str) -> str:
-    """Return a reference with the absolute path if its file was named at the start; otherwise an empty text."""
+    """Return a reference with the absolute path if its file, or a folder around it, was named at the start, else ""."""
+    if session.root is not None and is_program(reference):
+        return session.root.reference(reference)
     place, colon, name = reference.rpartition(":")
     path = Path(place if colon else reference).resolve()
     named = {Path(file.rpartition(":")[0] or file) for file in session.files}

@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import msgspec
-
 from niwaki.studio import messages as m
+from niwaki.studio.session.showing import answering
 from niwaki.studio.session.state import Session
 from niwaki.studio.window import Window
 
 
 async def propose(session: Session, window: Window, command: m.Propose) -> m.Answer:
     """Offer to make the arguments the defaults."""
-
-    def report(message: Any, payload: bytes) -> None:
-        window.tell(msgspec.structs.replace(message, id=command.id))
-
-    return await session.desk.do(m.ProposeDefaults(question=session.question()), report)
+    job = m.ProposeDefaults(question=session.question())
+    return await session.desk.do(job, answering(window, command.id))
 
 
 async def rewrite(session: Session, window: Window, command: m.Rewrite) -> m.Answer:

@@ -17,6 +17,7 @@ from niwaki.studio.journal import Journal
 from niwaki.studio.problems import CommandError as CommandError
 from niwaki.studio.problems import problem
 from niwaki.studio.process import Stamp, Worker
+from niwaki.studio.session.root import MESHES, Root
 from niwaki.studio.window import Window, newest
 
 #: The file name of an uploaded drawing.
@@ -40,6 +41,8 @@ class Session:
         References of models in files that were named at the start.
     trust
         Whether unchanged files that stored runs name may be run for their host functions.
+    root
+        The folder below which commands may name, read and write files; None for no folder.
 
     Attributes
     ----------
@@ -69,12 +72,14 @@ class Session:
         The newest point of a dragged part; a lock that a drag to a point holds.
     """
 
-    def __init__(self, folder: Path, files: list[str], trust: bool = False) -> None:
+    def __init__(self, folder: Path, files: list[str], trust: bool = False, root: Path | None = None) -> None:
         self.journal = Journal(folder)
         self.document = self.journal.document()
         self.windows: set[Window] = set()
         self.files = files
-        words = [*(["--trust"] if trust else []), *files]
+        self.root = None if root is None else Root(root)
+        below = [] if root is None else [f"--below={root.resolve()}"]
+        words = [*(["--trust"] if trust else []), *below, *files]
         slow: dict[str, Stamp] = {}
         self.searcher = Worker(*words, slow=slow)
         self.desk = Worker(*words, patience=PATIENCE, slow=slow)
@@ -100,8 +105,10 @@ class Session:
 
     async def end(self) -> None:
         """End the workers, and close the journal."""
-        for task in self._tasks:
+        tasks = [*self._tasks]
+        for task in tasks:
             task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
         await asyncio.gather(self.searcher.kill(), self.desk.kill())
         self.journal.close()
 
@@ -301,7 +308,11 @@ class Session:
             place = self.journal.folder / "uploads" / f"{source.removeprefix('upload:')}.stl"
             is_hash = len(source) == 71 and all(c in "0123456789abcdef" for c in source[7:])
             return str(place.resolve()) if is_hash and place.is_file() else None
-        return source if source in {*self.targets, "box", "ball", "column"} else None
+        if source in {*self.targets, "box", "ball", "column"}:
+            return source
+        if self.root is None or Path(source).suffix.lower() not in MESHES:
+            return None
+        return str(self.root.path(source))
 
 
 def of_model(outcomes: list[m.Outcome], model: str) -> list[m.Outcome]:

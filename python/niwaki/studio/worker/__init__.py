@@ -9,6 +9,8 @@
 - `jobs`         scenes: searches, parts grown again, changed choices
 - `values`       searches of other programs by values, and repeated searches
 - `drag`         dragged parts
+- `reports`      reports on models: checked, run without a target, explained, fitted
+- `pictures`     small pictures for clients that show no meshes
 - `runs`         stored runs: replayed, described, shown, written
 - `differences`  differences between a result and its target
 - `variety`      different looks of results, and the choice of results to show

@@ -53,7 +53,7 @@ from niwaki.studio.messages import (
     WriteFile,
 )
 from niwaki.studio.problems import CommandError
-from niwaki.studio.worker import runs
+from niwaki.studio.worker import pictures, runs
 
 #: The prefix of references of drawings, and the prefix of uploaded files after it.
 PREFIX, UPLOAD = "drawing:", "upload:"
@@ -157,7 +157,9 @@ def hold(job: Hold) -> Answer:
     colors = stored(job.source, job.number).colors
     for name in job.parts:
         if name not in colors:
-            raise InputError("no-part", pattern=name, name="the drawing", parts=", ".join(colors))
+            raise InputError(
+                "no-part", pattern=name, name="the drawing", parts=f"its regions are {', '.join(colors)}"
+            )
     return Answer(held=[HeldPart(name, {name: colors[name]}) for name in job.parts])
 
 
@@ -180,7 +182,10 @@ def describe(job: DescribeRun, send: Any) -> Answer:
 def show(job: ShowRun, send: Any) -> Answer:
     """Send the drawing in the colours of a result."""
     result = stored(job.source, job.number)
-    send(Picture(job.id, "result", job.key, job.detail), _png(result.drawing, result.colors, job.detail))
+    if job.detail == "picture":
+        send(Picture(job.id, key=job.key), pictures.small(lambda size: result.image(max(size))))
+    else:
+        send(Picture(job.id, "result", job.key, job.detail), _png(result.drawing, result.colors, job.detail))
     return Answer()
 
 

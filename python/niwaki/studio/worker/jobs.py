@@ -16,6 +16,7 @@ from niwaki.lang.compiled import translated
 from niwaki.result import Progress, Result, Sample
 from niwaki.result.progress import Watch
 from niwaki.result.search_like import SearchLike
+from niwaki.shell import requirements
 from niwaki.shell.references import ModelReference
 from niwaki.studio.messages import (
     Answer,
@@ -97,15 +98,20 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
     """Search for results that differ, and send the best so far."""
     model, goals = asks.search(job.question)
     settings = job.question.settings
-    result = nw.grow(
-        model.model,
-        **goals,
-        rounds=max(1, round(ROUNDS * settings.effort)),
-        diverse=variety.candidates(settings.count, settings.strength) if settings.count > 1 else None,
-        seed=job.seed,
-        hold=runs.values(job.question.hold) or None,
-        progress=watching(job.id, job.run, send, check),
-    )
+    progress, hold = watching(job.id, job.run, send, check), runs.values(job.question.hold) or None
+
+    def attempt(seed: int) -> Result:
+        return nw.grow(
+            model.model,
+            **goals,
+            rounds=max(1, round(ROUNDS * settings.effort)),
+            diverse=variety.candidates(settings.count, settings.strength) if settings.count > 1 else None,
+            seed=seed,
+            hold=hold,
+            progress=progress,
+        )
+
+    result = requirements.keeping(requirements.beside(model), attempt, job.seed)
     result.samples = variety.spread(ended(result), settings.count, settings.strength)
     return _answer(result, model, job.run, job.file, "run", send, job.id)
 

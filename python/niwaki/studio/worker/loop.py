@@ -26,6 +26,7 @@ from niwaki.studio.worker import (
     loading,
     offers,
     permissions,
+    reports,
     rewriting,
     structures,
     values,
@@ -109,6 +110,14 @@ def _dispatch(job: messages.AnyJob, send: Send, flag: StopFlag) -> Any:
             return offers.listed(job)
         case messages.Load():
             return offers.loaded(job)
+        case messages.CheckModel():
+            return reports.check(job, send)
+        case messages.PreviewRuns():
+            return reports.preview(job, send)
+        case messages.ExplainChange():
+            return reports.explain(job, send)
+        case messages.FitParameters():
+            return reports.fit(job, send, flag.check)
         case messages.Ghost():
             return kinds.of_question(job.question).ghost(job, send)
         case messages.Glimpse():

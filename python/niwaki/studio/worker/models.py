@@ -22,6 +22,9 @@ STACK = "stack:"
 #: Files that were named at the start, with their references: no other file is run for its models.
 named: dict[Path, str] = {}
 
+#: Folders that were named at the start, with all symbolic links resolved: files below them may be run.
+folders: list[Path] = []
+
 _loaded: dict[str, tuple[object, ModelReference]] = {}
 
 
@@ -35,12 +38,8 @@ def reference(name: str) -> ModelReference:
     """
     place = Path(name.rpartition(":")[0] or name)
     stamp: object = None
-    if place.suffix == ".py" and place.resolve() not in named:
-        text = (
-            f"{place} was not named when the studio was started, and a model is code.\n"
-            f"Read the file; then start the studio with it: niwaki studio {place.name}"
-        )
-        raise CommandError("unnamed-file", text)
+    if place.suffix == ".py":
+        check_permission(place)
     if place.suffix == ".py" and place.is_file():
         status = place.stat()
         stamp = status.st_mtime_ns, status.st_size, status.st_ino
@@ -49,6 +48,28 @@ def reference(name: str) -> ModelReference:
         with loading(place) if stamp is not None else nullcontext():
             entry = _loaded[name] = (stamp, _structure(name) or find(name))
     return entry[1]
+
+
+def check_permission(place: Path) -> None:
+    """Refuse a file that is neither named nor below a folder that was named at the start.
+
+    Raises
+    ------
+    CommandError
+        `unnamed-file`.
+    """
+    real = place.resolve()
+    if real not in named and not any(real.is_relative_to(folder) for folder in folders):
+        text = (
+            f"{place} was not named when the studio was started, and a model is code.\n"
+            f"Read the file; then start the studio with it: niwaki studio {place.name}"
+        )
+        raise CommandError("unnamed-file", text)
+
+
+def is_file(name: str) -> bool:
+    """Whether a reference is that of a file without a function."""
+    return Path(name).suffix.lower() in (".py", ".scad")
 
 
 def names_in(file: str) -> list[str]:

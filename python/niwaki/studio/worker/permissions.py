@@ -20,14 +20,19 @@ from niwaki.studio.problems import CommandError
 from niwaki.studio.worker import models
 from niwaki.studio.worker.loading import loading
 
+#: The beginning of a word that names a folder whose files may run.
+BELOW = "--below="
+
 _trust: list[bool] = [False]
 
 
 def configure(words: Sequence[str]) -> None:
-    """Set the permissions from the words of the command line: references of files, and `--trust`."""
+    """Set the permissions from the words of the command line: references of files, folders, and `--trust`."""
     _trust[0] = "--trust" in words
     for reference in words:
-        if reference != "--trust":
+        if reference.startswith(BELOW):
+            models.folders.append(Path(reference.removeprefix(BELOW)).resolve())
+        elif reference != "--trust":
             models.named[Path(reference.rpartition(":")[0] or reference).resolve()] = reference
 
 
@@ -45,11 +50,13 @@ def modules(data: dict[str, Any]) -> tuple[str, ...]:
     if not needed:
         return ()
     named = Path(str(data["model"]).rpartition(":")[0])
-    reference = models.named.get(named.resolve())
+    real = named.resolve()
+    is_below = any(real.is_relative_to(folder) for folder in models.folders)
+    reference = str(data["model"]) if is_below else models.named.get(real)
     if reference is not None:
         # The file is run at most once for each of its states.
         models.reference(reference)
-        prefer(named.resolve())
+        prefer(real)
         return tuple(sorted(module for module in needed if run_modules(module)))
     try:
         with loading(named):

@@ -11,7 +11,7 @@ import niwaki as nw
 from niwaki.errors.files import ensure_folder, write_whole
 from niwaki.result import Result, Sample
 from niwaki.search.data import Reader, Writer
-from niwaki.shell import run_files
+from niwaki.shell import requirements, run_files
 from niwaki.shell.references import ModelReference
 from niwaki.studio.messages import (
     Answer,
@@ -24,12 +24,13 @@ from niwaki.studio.messages import (
     Key,
     Outcome,
     PartInfo,
+    Picture,
     Place,
     ShowRun,
     WriteFile,
 )
 from niwaki.studio.problems import CommandError
-from niwaki.studio.worker import asks, models, permissions, shapes
+from niwaki.studio.worker import asks, models, permissions, pictures, shapes
 from niwaki.studio.worker.places import PlaceRecorder, record, slider
 
 #: Results that are kept in memory.
@@ -64,15 +65,22 @@ def store(
     for number, result_sample in enumerate(result.samples):
         _samples[file, number] = result_sample
     _save(Path(file), data)
-    return [outcome(each, Key(run, number), origin) for number, each in enumerate(result.samples)]
+    rules = requirements.beside(model)
+    return [outcome(each, Key(run, number), origin, rules) for number, each in enumerate(result.samples)]
 
 
-def outcome(result: Sample, key: Key, origin: str) -> Outcome:
-    """Describe a result for the gallery."""
+def outcome(result: Sample, key: Key, origin: str, rules: requirements.Requirements | None = None) -> Outcome:
+    """Describe a result for the gallery, with the requirements beside its model that it does not keep."""
     numbers = run_files.numbers(result)
     shares = {name: numbers[name] for name in ("similarity", "covered", "outside")}
     return Outcome(
-        key, numbers["log_score"], primitives=result.primitives, seed=result.seed, origin=origin, **shares
+        key,
+        numbers["log_score"],
+        primitives=result.primitives,
+        seed=result.seed,
+        origin=origin,
+        unmet=[] if rules is None else rules.unmet(result),
+        **shares,
     )
 
 
@@ -143,6 +151,10 @@ def _place(span: Any) -> Place | None:
 def show(job: ShowRun, send: Any) -> Answer:
     """Send the shape of a result."""
     result = sample(job.source, job.number)
+    if job.detail == "picture":
+        style = run_files.style(run_files.load(job.source), result)
+        send(Picture(job.id, key=job.key), pictures.result(result, style))
+        return Answer()
     header, payload = shapes.shape(
         result.scene, job.detail, role="result", key=job.key, id=job.id, is_flat=is_flat(result)
     )

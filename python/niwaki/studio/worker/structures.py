@@ -25,6 +25,7 @@ from niwaki.errors.files import ensure_folder
 from niwaki.methods import explore
 from niwaki.result import Progress, Result, Sample
 from niwaki.shares import percent
+from niwaki.shell import requirements
 from niwaki.shell.references import ModelReference
 from niwaki.studio.messages import (
     Answer,
@@ -63,17 +64,23 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
         send(Progressed(job.id, now.done, best, time.perf_counter() - start))
         check()
 
-    draws = nw.run(
-        model.model,
-        explore(draws=1, chains=max(1, round(CHAINS * settings.count * settings.effort))),
-        seed=job.seed,
-        hold=runs.values(question.hold) or None,
-        progress=progress,
-        **question.arguments,
-    )
-    tilts = sorted(((_tilt_of(draw), -number) for number, draw in enumerate(draws)), reverse=True)
-    best = [draws[-number] for _, number in tilts[: settings.count]]
-    return _answer(Result(draws.search, best, job.seed), model, job, "run", send, draws.interrupted)
+    def attempt(seed: int) -> Result:
+        draws = nw.run(
+            model.model,
+            explore(draws=1, chains=max(1, round(CHAINS * settings.count * settings.effort))),
+            seed=seed,
+            hold=runs.values(question.hold) or None,
+            progress=progress,
+            **question.arguments,
+        )
+        tilts = sorted(((_tilt_of(draw), -number) for number, draw in enumerate(draws)), reverse=True)
+        best = [draws[-number] for _, number in tilts[: settings.count]]
+        result = Result(draws.search, best, seed)
+        result.interrupted = draws.interrupted
+        return result
+
+    result = requirements.keeping(requirements.beside(model), attempt, job.seed)
+    return _answer(result, model, job, "run", send, result.interrupted)
 
 
 def _answer(

@@ -50,6 +50,10 @@ class Option:
         The option that it needs.
     default : Any
         Its value when it is absent.
+    sets : str
+        The parameter that it sets, where that has another name.
+    of : tuple of str
+        The sketches whose parameter it is; empty for all that have it.
     """
 
     kind: str
@@ -60,6 +64,8 @@ class Option:
     needed: str = ""
     beside: str = ""
     default: Any = None
+    sets: str = ""
+    of: tuple[str, ...] = ()
 
 
 OPTIONS: dict[str, Option] = {
@@ -106,6 +112,7 @@ OPTIONS: dict[str, Option] = {
         "NUMBER",
         alone="it is the weight of the white pixels",
         beside="weight_image",
+        of=("match_image", "match_shadow"),
     ),
     "light": Option(
         "direction",
@@ -139,6 +146,14 @@ OPTIONS: dict[str, Option] = {
         "Strictness of the match; smaller is stricter. Default: 0.02, drawings 0.014.",
         "NUMBER",
     ),
+    "volume_weight": Option(
+        "word",
+        "Which cells count around a target: all, or those that the target or the scene fills. Default: cells.",
+        "cells|balanced",
+        alone="it is how the cells of a target count",
+        sets="weight",
+        of=("match_volume",),
+    ),
     "rule": Option(
         "word",
         "Which parts count as intersecting; none: parts may overlap.",
@@ -156,10 +171,11 @@ FILES = tuple(
 @cache
 def parameters(name: str) -> dict[str, str]:
     """Return the parameter that an option sets, by sketch."""
-    sketches = OPTIONS[name].asks
-    if sketches:
-        return {sketch: next(iter(_parameters(sketch))) for sketch in sketches}
-    return {sketch: name for sketch in SKETCHES if name in _parameters(sketch)}
+    option = OPTIONS[name]
+    if option.asks:
+        return {sketch: next(iter(_parameters(sketch))) for sketch in option.asks}
+    parameter = option.sets or name
+    return {sketch: parameter for sketch in option.of or SKETCHES if parameter in _parameters(sketch)}
 
 
 def sketches_of(
@@ -202,7 +218,9 @@ def sketches_of(
         asks = [ask for ask in asks if ask[0] != "no_self_intersection"]
     for sketch, arguments in asks:
         arguments |= {
-            key: options[key] for key in options if not OPTIONS[key].asks and sketch in parameters(key)
+            parameters(key)[sketch]: options[key]
+            for key in options
+            if not OPTIONS[key].asks and sketch in parameters(key)
         }
         if sketch == "match_drawing":
             side = arguments.pop("pixels", drawings.SIDE)

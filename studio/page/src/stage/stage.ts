@@ -32,7 +32,7 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import type { Arrow, Ask, AskChange, Difference, Eye, Shape, TargetAsk } from "../messages";
+import { OBSTACLE, type Arrow, type Ask, type AskChange, type Difference, type Eye, type Shape, type TargetAsk } from "../messages";
 import { cubes, KINDS, sheet, tiles } from "./cells";
 import { arrowMeshes } from "./arrows";
 import { solid } from "./finish";
@@ -43,8 +43,8 @@ import { kindOf, type Mode, SceneObjects } from "./objects";
 import type { Piece } from "./meshes";
 
 export const COLORS = {
-  light: { paper: 0xf3f1ec, ghost: 0x5a82b8, obstacle: 0xb4564a, mark: 0x8a857a, selected: 0xd0652b, held: 0x2f6f8f, shade: 0.16, falling: 0xb3261e, force: 0x1f5f8b },
-  dark: { paper: 0x1d1e21, ghost: 0x7fa3d4, obstacle: 0xd9837a, mark: 0x8c8d92, selected: 0xf08a4b, held: 0x6fb2d2, shade: 0.45, falling: 0xff6b5e, force: 0x8cc8f0 },
+  light: { paper: 0xf3f1ec, ghost: 0x5a82b8, obstacle: OBSTACLE.light, mark: 0x8a857a, selected: 0xd0652b, held: 0x2f6f8f, shade: 0.16, falling: 0xb3261e, force: 0x1f5f8b },
+  dark: { paper: 0x1d1e21, ghost: 0x7fa3d4, obstacle: OBSTACLE.dark, mark: 0x8c8d92, selected: 0xf08a4b, held: 0x6fb2d2, shade: 0.45, falling: 0xff6b5e, force: 0x8cc8f0 },
 };
 
 export class Stage {
@@ -135,6 +135,11 @@ export class Stage {
     this.shape.clear();
     for (const { geometry } of all) geometry.dispose();
     return all.map(({ material }) => material);
+  }
+
+  /** Whether the canvas shows the present contents. */
+  get isDrawn(): boolean {
+    return !this.isAsked;
   }
 
   /** Draws with the next frame. */
@@ -416,9 +421,10 @@ export class Stage {
     return [round(-0.6 * ahead.x - 0.25 * ahead.z), -1, round(-0.6 * ahead.z + 0.25 * ahead.x)];
   }
 
-  /** Lets the camera move to the next contents. */
+  /** Lets the camera move to the contents of another model; the former target counts no more, though it is drawn until the next one arrives. */
   forget(): void {
     this.isFramed = this.isSettled = false;
+    this.ghostBox.makeEmpty();
   }
 
   /** Returns the camera in the form of a sketch. */

@@ -17,7 +17,7 @@ import { Pen } from "./pen";
 export let stage: Stage;
 export let drag: Drag;
 /** The shape on the stage, for tests and for the page. */
-export const shown = { key: null as Key | null, role: "", detail: "", bests: 0 };
+export const shown = { key: null as Key | null, role: "", detail: "", bests: 0, moves: 0 };
 
 export function Canvas() {
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -116,6 +116,7 @@ function follow(): void {
     shown.key = shape?.key ?? null;
     shown.role = shape?.role ?? "";
     shown.bests = shown.role !== "best" ? 0 : shown.bests + 1;
+    if (shown.role === "moving") shown.moves++;
     shown.detail = shape?.detail ?? "";
     remark();
   };

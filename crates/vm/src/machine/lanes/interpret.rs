@@ -91,6 +91,7 @@ impl<'r, 'p> Run<'r, 'p> {
             self.scratch_columns.resize(at + 1, None);
         }
         let (value, column) = split(side);
+        self.machine.holds_shared |= !value.is_plain();
         self.machine.scratch[at].store(value);
         self.scratch_columns[at] = column;
     }

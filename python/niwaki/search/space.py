@@ -11,12 +11,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from math import exp, isfinite, log
 from statistics import NormalDist
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from niwaki.errors import InputError
 from niwaki.errors.settings import shown
+from niwaki.lang import densities
 from niwaki.words.distributions import (
     Bernoulli,
     Categorical,
@@ -33,6 +38,9 @@ When = Mapping[str, Any]
 #: A level of a whole number, switch or choice is counted up to this number.
 MOST_LEVELS = 4096
 
+#: Draws that show the quantiles of a distribution that has no formula here.
+DRAWS = 512
+
 #: Probabilities at the ends of a range without bounds.
 TAIL = 1e-6
 
@@ -46,7 +54,7 @@ class Parameter:
     Parameters
     ----------
     range
-        `Uniform`, `Gaussian` or `LogNormal` for real numbers, `DiscreteUniform` for whole numbers, `Bernoulli` for a
+        A distribution of real or whole numbers such as `Uniform`, `LogNormal` or `DiscreteUniform`, `Bernoulli` for a
         switch, `Categorical` for an index; a list or tuple of values for a choice.
     when
         The values of other parameters under which the parameter is used, such as `{"web": ["holes", "arms"]}`. All of
@@ -96,7 +104,9 @@ class Axis:
                 return mean + sd * NormalDist().inv_cdf(inner)
             case LogNormal(mean, sd):
                 return exp(mean + sd * NormalDist().inv_cdf(inner))
-        raise AssertionError(self.range)
+        assert self.range is not None
+        table = quantiles(self.range)
+        return float(np.interp(place, np.linspace(0.0, 1.0, len(table)), table))
 
     def level(self, value: Any) -> int | None:
         """Return the level of a value, or None."""
@@ -123,7 +133,8 @@ class Axis:
             case LogNormal(mean, sd):
                 place = NormalDist(mean, sd).cdf(log(value)) if value > 0 else 0.0
             case _:
-                raise AssertionError(self.range)
+                table = quantiles(self.range)
+                place = float(np.interp(value, table, np.linspace(0.0, 1.0, len(table))))
         if not -1e-9 <= place <= 1.0 + 1e-9:
             raise wrong(self.name, value, f"a value of {self.range}")
         return min(max(place, 0.0), 1.0)
@@ -234,6 +245,13 @@ class Space:
                 if not weights or min(weights) < 0 or not 0 < sum(weights) < float("inf"):
                     raise wrong(name, index, "weights, not negative and not all zero")
                 return Axis(name, "choice", range(len(weights)), weights, None, when)
+            case Distribution() as counts if isinstance(_draws(counts)[0], int):
+                table = _draws(counts)
+                levels = range(int(table[0]), int(table[-1]) + 1)[:MOST_LEVELS]
+                weights = tuple(exp(densities.log_density(counts, level)) for level in levels)
+                return Axis(name, "whole", levels, weights, None, when)
+            case Distribution() as real if isinstance(_draws(real)[0], float):
+                return Axis(name, "real", (), None, real, when)
             case list() | tuple() | range() as values if 0 < len(values) <= MOST_LEVELS:
                 return Axis(name, "choice", tuple(values), None, None, when)
         raise wrong(name, parameter.range, EXPECTED)
@@ -263,6 +281,23 @@ class Space:
                 terms.append((before[other], tuple(sorted({level for level in levels if level is not None}))))
             out.append(tuple(terms))
         return tuple(out)
+
+
+@cache
+def _draws(dist: Distribution) -> list[Any]:
+    """Draws of a distribution in their order; one that is no number or a bad parameter stands alone."""
+    try:
+        draws = [densities.draw(dist, 0, str(number)) for number in range(DRAWS)]
+    except (ValueError, TypeError):
+        return [None]
+    kinds = {type(draw) for draw in draws}
+    return sorted(draws) if kinds <= {int} or kinds <= {float} else [None]
+
+
+@cache
+def quantiles(dist: Distribution) -> NDArray[np.float64]:
+    """Quantiles of a distribution of real numbers, by the order of its draws."""
+    return np.array(_draws(dist), float)
 
 
 def wrong(name: str, value: Any, expected: str) -> InputError:

@@ -117,6 +117,12 @@ class VolumeDifferences:
             out.append(SHADOW * along.ravel())
         return np.concatenate(out).astype(np.float64)
 
+    def blocks(self) -> NDArray[np.float64]:
+        """Return the cells of the target in each block, (x, y, z)."""
+        shape = tuple(len(cuts) for cuts in self.cuts)
+        blocks: NDArray[np.float64] = self.want[: int(np.prod(shape))].reshape(shape) / BLOCK
+        return blocks
+
     def __call__(self, shapes: Sequence[_engine.Shape], scene: Scene) -> NDArray[np.float64]:
         """Return the differences."""
         sums = self.sums(self.grid.mask(list(shapes))) - self.want
@@ -222,9 +228,11 @@ def _lost(call: SketchCall) -> float:
     """The root of twice the score that the empty scene loses against a perfect one, nats: its error in deviations."""
     sketch = _engine.Sketch([call.spec])
     similarity = sketch.similarity()
-    sigma = float(call.arguments["sigma"])
+    deviation = float(call.arguments["sigma"])
+    if call.arguments.get("weight") == "balanced":
+        deviation *= _engine.BALANCED_DEVIATIONS
     wrong = 1.0 if similarity is None else 1.0 - similarity
-    return max(wrong / sigma, 1.0)
+    return max(wrong / deviation, 1.0)
 
 
 Make = Callable[[SketchCall, View | None], Differences]

@@ -1,0 +1,154 @@
+"""Requirements beside a model: read, held against runs, and kept by searches of the shell and of the studio."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from niwaki import InputError, box, cylinder, emit, model, rotation, run
+from niwaki.draw.scene import Scene
+from niwaki.methods import Forward
+from niwaki.shell import requirements
+from niwaki.shell.app import app
+from niwaki.shell.requirements import Requirements, thickness
+from typer.testing import CliRunner
+
+TOWER = """from niwaki import box, emit, model, uniform
+
+
+@model
+def tower():
+    height = uniform(1.0, 4.0)
+    emit(box((0, height / 2, 0), (1, height, 1)))
+"""
+
+
+@pytest.fixture
+def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with a model and a target."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "tower.py").write_text(TOWER)
+    Scene([("target", [box((0, 1.5, 0), (1, 3, 1))])]).export(tmp_path / "target.obj")
+    return tmp_path
+
+
+@model
+def leaning(x=0.0, width=1.0):
+    emit(box((0, 0.5, 0), (1, 1, 1)))
+    emit(box((x, 1.5, 0), (width, 1, 1)))
+
+
+def judged(rules: Requirements, program=leaning, **arguments):
+    """Return what holds, by name."""
+    sample = run(program, method=Forward(), seed=1, **arguments).best
+    return {row.name: row.holds for row in rules.judged(sample)}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "name", "holds"),
+    [
+        ({"x": 0.9}, "stands", True),
+        ({"x": 1.1}, "stands", False),
+        ({"width": 0.3}, "thinnest", True),
+        ({"width": 0.2}, "thinnest", False),
+        ({}, "height", True),
+        ({}, "covered", False),
+        ({}, "collisions", True),
+    ],
+)
+def test_a_run_is_held_against_each_requirement(arguments, name, holds):
+    rules = Requirements(covered=0.9, height=(1.9, 2.0), thinnest=0.25, stands=True, collisions=False)
+    assert judged(rules, **arguments)[name] is holds
+
+
+@model
+def crossing():
+    emit(box((0, 0.5, 0), (1, 1, 1)))
+    emit(box((0.5, 0.7, 0.2), (1, 1, 1)))
+
+
+def test_parts_that_intersect_are_named():
+    sample = run(crossing, method=Forward(), seed=1).best
+    (text,) = Requirements(collisions=False).unmet(sample)
+    assert text == "no parts intersect: Box 1, Box 2 intersect"
+    assert Requirements(height=(0.5, 1.0)).unmet(sample) == ["height 0.5 to 1: height 1.2"]
+
+
+def test_the_width_of_a_turned_box_and_of_a_rod():
+    turned = box((0, 0, 0), (3.0, 0.2, 2.0), rotation((0, 0, 1), 0.7))
+    assert np.isclose(thickness(turned), 0.2)
+    assert np.isclose(thickness(cylinder((0, 0, 0), 0.05, 5.0)), 0.1, rtol=0.01)
+
+
+def test_a_scene_on_one_edge_does_not_stand():
+    @model
+    def wedge(angle=0.5):
+        emit(box((0, 2, 0), (1, 1, 1), rotation((0, 0, 1), angle)))
+
+    assert judged(Requirements(stands=True), wedge) == {"stands": False}
+    assert judged(Requirements(stands=True), wedge, angle=0.0) == {"stands": True}
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("hight = [2, 3]", "hight"),
+        ("height = [3.0, 2.0]", "least height first"),
+        ("covered = 1.5", "covered"),
+        ("stands = 1", "stands"),
+    ],
+)
+def test_a_file_with_a_fault_says_where(tmp_path: Path, text: str, reason: str):
+    (tmp_path / "requirements.toml").write_text(text)
+    with pytest.raises(InputError, match="does not describe requirements") as caught:
+        requirements.load(tmp_path / "requirements.toml")
+    assert reason in str(caught.value)
+
+
+def shell(*words: str) -> tuple[int, str]:
+    """Run a command; return its exit code and its standard output."""
+    answer = CliRunner().invoke(app, list(words), catch_exceptions=False)
+    return answer.exit_code, answer.stdout
+
+
+GROW = ("grow", "tower.py", "--target", "target.obj", "--seed", "1", "--particles", "100")
+
+
+def test_a_search_keeps_the_requirements_or_says_which_it_does_not(place: Path):
+    (place / "requirements.toml").write_text("height = [2.5, 3.5]\nstands = true\n")
+    code, output = shell(*GROW, "--json")
+    (row,) = json.loads(output)["runs"]
+    assert code == 0 and row["unmet"] == [] and row["covered"] > 0.8
+    (place / "requirements.toml").write_text("height = [5.0, 6.0]\n")
+    code, output = shell(*GROW, "--json")
+    (row,) = json.loads(output)["runs"]
+    assert code == 1 and row["unmet"][0].startswith("height 5 to 6: height ")
+
+
+def test_a_further_seed_is_tried(place: Path):
+    sample = run(leaning, method=Forward(), seed=1)
+    seeds = []
+
+    def attempt(seed: int):
+        seeds.append(seed)
+        return run(leaning, method=Forward(), seed=1, x=0.0 if seed == 9 else 1.2)
+
+    kept = requirements.keeping(Requirements(stands=True), attempt, 8)
+    assert seeds == [8, 9] and kept.best.scene.bounds.tolist() == sample.best.scene.bounds.tolist()
+    seeds.clear()
+    requirements.keeping(Requirements(height=(9.0, 9.0)), attempt, 8)
+    assert seeds == [8, 9, 10]
+
+
+def test_check_says_how_often_each_requirement_holds_and_holds_a_result_against_them(place: Path):
+    (place / "requirements.toml").write_text("height = [2.0, 3.0]\n")
+    code, output = shell("check", "tower.py")
+    assert code == 0 and "requires    height 2 to 3: (kept by " in output
+    shell(*GROW, "-o", "out")
+    code, output = shell("check", "tower.py", "--run", "out/run.json", "--json")
+    (row,) = json.loads(output)["requirements"]
+    assert code == 0 and row["holds"] is True and row["value"].startswith("height ")
+    (place / "requirements.toml").write_text("height = [0.0, 1.0]\n")
+    assert shell("check", "tower.py", "--run", "out/run.json")[0] == 1
