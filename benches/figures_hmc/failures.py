@@ -35,7 +35,7 @@ def failures(path: Path, folder: Path) -> None:
     for cell, (name, row) in zip(axes.flat, rows, strict=False):
         scene = scene_of(KINDS[name], chains(folder, name, "nuts"), (row["chain"], row["draw"]))
         cell.imshow(framed(scene, None))
-        cell.set_title(f"{name.replace("_", " ")}: {why(row)}", fontsize=9)
+        cell.set_title(f"{name.replace('_', ' ')}: {why(row)}", fontsize=9)
     figure.tight_layout()
     # The layout leaves no room for titles of cells without axes.
     figure.savefig(path, dpi=75, bbox_inches="tight")
