@@ -10,7 +10,7 @@ import asyncio
 import os
 from collections import OrderedDict
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Union
 
 import msgspec
 
@@ -27,11 +27,7 @@ KEPT = 64
 #: Fields of the state that an answer does not tell by itself, because they are long and `look` has them.
 QUIET = {"models", "targets", "undo", "redo", "interrupted", "sizes", "searching"}
 
-_EVENT = msgspec.json.Decoder(
-    m.Done | m.Failed | m.Patch | m.State | m.Described | m.Dragged | m.Offered | m.Judged | m.Palette | m.File
-    | m.Looked | m.FileText | m.Checked | m.Previewed | m.Explained | m.Fitted | m.Shape | m.Difference | m.Picture
-    | m.Regions | m.Mask
-)  # fmt: skip
+_EVENT = msgspec.json.Decoder(Union[tuple(m.Event.__subclasses__())])  # noqa: UP007
 
 
 @dataclass
@@ -127,6 +123,8 @@ class Caller:
             call.has_failed = isinstance(event, m.Failed)
             call.lines = answers.lines(event) + call.lines if call.has_failed else call.lines
             call.ended.set()
+        elif isinstance(event, m.Difference):
+            call.lines += answers.difference_lines(event, payload)
         elif not payload:
             call.lines += answers.lines(event)
 
