@@ -14,7 +14,7 @@ from niwaki.agents.server import calling
 #: The most bytes of a text and of a picture.
 TEXT, PICTURE = 4_000, 100_000
 #: The most times that a client asks for the end of a call.
-ASKED = 200
+ROUNDS = 200
 
 
 class Agent:
@@ -41,7 +41,7 @@ class Agent:
     def call(self, tool: str, **arguments: object) -> Reply:
         """Send a call, and ask for its answer until the call has ended."""
         reply = self.once(tool, **arguments)
-        for _ in range(ASKED):
+        for _ in range(ROUNDS):
             match = re.match(r"call (\d+): \w+ is at work", reply.text)
             if match is None:
                 return reply
