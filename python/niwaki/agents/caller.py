@@ -149,7 +149,7 @@ class Caller:
         if not call.is_told:
             # What the session told all windows before the end of the call has arrived.
             call.is_told = True
-            call.lines += self._changed_lines()
+            call.lines += self._changed_lines(call.has_failed)
         divided = answers.pages([line.replace(self._root, "") if self._root else line for line in call.lines])
         if not 1 <= page <= len(divided):
             return Reply(f"error no-page\nthe answer has {len(divided)} pages", has_failed=True)
@@ -165,12 +165,12 @@ class Caller:
             return ""
         return f" ({now.done} rounds{', best: ' + now.fit if now.fit else ''})"
 
-    def _changed_lines(self) -> list[str]:
-        """Return the fields of the state that have changed since the last answer."""
+    def _changed_lines(self, has_failed: bool) -> list[str]:
+        """Return the fields of the state that have changed since the last answer; a failure tells its own problem."""
         changes, self._changes = self._changes, {}
         view = self._session.view()
         fields = {name: getattr(view, name) for name in changes if hasattr(view, name)}
         lines = answers.field_lines({name: value for name, value in fields.items() if name != "problem"})
-        if fields.get("problem") is not None:
+        if fields.get("problem") is not None and not has_failed:
             lines += answers.problem_lines(fields["problem"])
         return lines

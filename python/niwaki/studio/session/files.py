@@ -41,8 +41,7 @@ async def write(session: Session, window: Window, command: m.Write) -> m.Answer 
     if place.suffix != ".py":
         return None
     answer = await reporting.check_model(session, window, command.id, m.CheckModel(reference=str(place)))
-    if answer.problem is None:
-        await loading.reload(session, {place})
+    await loading.reload(session, {place})
     return answer
 
 
