@@ -11,8 +11,9 @@ import json
 from typing import Any
 
 import msgspec
+import numpy as np
 
-from niwaki.studio.messages import Event, Failed, Place, Problem
+from niwaki.studio.messages import Difference, Event, Failed, Place, Problem
 
 #: The most bytes of a page.
 PAGE = 4_000
@@ -37,6 +38,25 @@ def problem_lines(problem: Problem) -> list[str]:
     """Return the lines of a problem: its code, its place in a file, and its text."""
     where = "" if problem.place is None else f" at {_short(problem.place)}"
     return [f"error {problem.code}{where}", *problem.text.splitlines()]
+
+
+#: Words for the values of a cell of a difference.
+CELLS = {1: "both", 2: "target_only", 3: "scene_only"}
+
+
+def difference_lines(event: Difference, cells: bytes) -> list[str]:
+    """Return the lines of a difference: for each kind of cells, their number and corners around them."""
+    values = np.frombuffer(cells, np.uint8).reshape(event.size[::-1])
+    low, high = np.array(event.low), np.array(event.high)
+    step = (high - low) / np.array(event.size)
+    fields: dict[str, Any] = {}
+    for value, name in CELLS.items():
+        places = np.argwhere(values == value)[:, ::-1]
+        fields[name] = {"cells": len(places)}
+        if len(places) and not event.is_picture:
+            first, last = low + places.min(axis=0) * step, low + (places.max(axis=0) + 1) * step
+            fields[name] |= {"low": _short(first.tolist()), "high": _short(last.tolist())}
+    return [*lines(event), *_rows(fields)]
 
 
 def field_lines(values: dict[str, Any]) -> list[str]:

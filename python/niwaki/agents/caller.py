@@ -10,7 +10,7 @@ import asyncio
 import os
 from collections import OrderedDict
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Union
 
 import msgspec
 
@@ -27,11 +27,7 @@ KEPT = 64
 #: Fields of the state that an answer does not tell by itself, because they are long and `look` has them.
 QUIET = {"models", "targets", "undo", "redo", "interrupted", "sizes", "searching"}
 
-_EVENT = msgspec.json.Decoder(
-    m.Done | m.Failed | m.Patch | m.State | m.Described | m.Dragged | m.Offered | m.Judged | m.Palette | m.File
-    | m.Looked | m.FileText | m.Checked | m.Previewed | m.Explained | m.Fitted | m.Shape | m.Difference | m.Picture
-    | m.Regions | m.Mask
-)  # fmt: skip
+_EVENT = msgspec.json.Decoder(Union[tuple(m.Event.__subclasses__())])  # noqa: UP007
 
 
 @dataclass
@@ -127,6 +123,8 @@ class Caller:
             call.has_failed = isinstance(event, m.Failed)
             call.lines = answers.lines(event) + call.lines if call.has_failed else call.lines
             call.ended.set()
+        elif isinstance(event, m.Difference):
+            call.lines += answers.difference_lines(event, payload)
         elif not payload:
             call.lines += answers.lines(event)
 
@@ -151,7 +149,7 @@ class Caller:
         if not call.is_told:
             # What the session told all windows before the end of the call has arrived.
             call.is_told = True
-            call.lines += self._changed_lines()
+            call.lines += self._changed_lines(call.has_failed)
         divided = answers.pages([line.replace(self._root, "") if self._root else line for line in call.lines])
         if not 1 <= page <= len(divided):
             return Reply(f"error no-page\nthe answer has {len(divided)} pages", has_failed=True)
@@ -167,12 +165,12 @@ class Caller:
             return ""
         return f" ({now.done} rounds{', best: ' + now.fit if now.fit else ''})"
 
-    def _changed_lines(self) -> list[str]:
-        """Return the fields of the state that have changed since the last answer."""
+    def _changed_lines(self, has_failed: bool) -> list[str]:
+        """Return the fields of the state that have changed since the last answer; a failure tells its own problem."""
         changes, self._changes = self._changes, {}
         view = self._session.view()
         fields = {name: getattr(view, name) for name in changes if hasattr(view, name)}
         lines = answers.field_lines({name: value for name, value in fields.items() if name != "problem"})
-        if fields.get("problem") is not None:
+        if fields.get("problem") is not None and not has_failed:
             lines += answers.problem_lines(fields["problem"])
         return lines

@@ -75,7 +75,7 @@ async def calling(root: Path, folder: Path) -> AsyncIterator[Caller]:
         The folder of the session; a session that is there resumes.
     """
     session = Session(folder, [], root=root)
-    beginning = asyncio.create_task(begin(session))
+    beginning = asyncio.create_task(begin(session, glimpses=False))
     caller = Caller(session)
     try:
         yield caller

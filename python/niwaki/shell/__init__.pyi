@@ -1,3 +1,5 @@
+from . import check as check
+from . import fit as fit
 from . import references as references
 from . import replay_changed as replay_changed
 from . import requirements as requirements

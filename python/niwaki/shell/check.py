@@ -44,10 +44,10 @@ def check(
             "--target", metavar="FILE", help="A mesh to fill, with --try. Default: the model's target."
         ),
     ] = None,
-    run: Annotated[
+    result: Annotated[
         Path | None,
         typer.Option(
-            "--run",
+            "--result",
             metavar="RUN.JSON",
             help="A result of the model; its best run is held against requirements.toml beside the model.",
         ),
@@ -56,7 +56,7 @@ def check(
 ) -> None:
     """Compile MODEL and report its functions and choices, with advice and the requirements beside it.
 
-    Exit code 1: the model does not compile, or the result of --run does not keep its requirements.
+    Exit code 1: the model does not compile, or the result of --result does not keep its requirements.
     """
     reference = shell.references.find(model)
     start = time.perf_counter()
@@ -84,12 +84,12 @@ def check(
                     reason="a comparison of two versions is a text",
                     cure="leave out one of the two",
                 )
-        described = report(reference, None if run is None else _run_of(run), named)
+        described = report(reference, None if result is None else _run_of(result), named)
         print(reports.as_json(described))
         if any(row.holds is False for row in described.requirements):
             raise typer.Exit(1)
         return
-    described = report(reference, None if run is None else _run_of(run), named)
+    described = report(reference, None if result is None else _run_of(result), named)
     print(f"{reference.name}: compiled in {1e3 * (lowered + program.seconds):.1f} ms")
     print(f"  arguments   {described.arguments or 'none'}")
     print(f"  constants   {described.constants}")

@@ -88,7 +88,7 @@ README = """# House
 
 @app.command()
 def init(
-    folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="A new folder, or an empty one.")],
+    folder: Annotated[Path, typer.Argument(metavar="NEW-FOLDER", help="A new folder, or an empty one.")],
     force: folders.Force = False,
 ) -> None:
     """Write a folder to begin with: a model, its target, requirements, a test, a README."""

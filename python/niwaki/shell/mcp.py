@@ -16,24 +16,24 @@ from niwaki.shell.app import app
 def mcp(
     folder: Annotated[
         Path,
-        typer.Argument(metavar="FOLDER", help="The folder of the models. Messages reach no file outside."),
+        typer.Argument(metavar="MODELS", help="The folder of the models. Messages reach no file outside."),
     ] = Path("."),
     session: Annotated[
         Path | None,
         typer.Option(
             "--session",
             metavar="FOLDER",
-            help="Folder of the session. An existing session is resumed. Default: studio-session in FOLDER.",
+            help="Folder of the session. An existing session is resumed. Default: studio-session in MODELS.",
         ),
     ] = None,
     http: Annotated[
         bool, typer.Option("--http", help="Serve loopback HTTP at /mcp, beside the studio's page.")
     ] = False,
     port: Annotated[
-        int, typer.Option("--port", metavar="N", help="Port of --http; 0 takes a free port.")
+        int, typer.Option("--port", metavar="N", help="Port of the server; 0 takes a free port.")
     ] = 0,
     browser: Annotated[
-        bool, typer.Option("--browser/--no-browser", help="Open the page of --http in the browser.")
+        bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")
     ] = False,
 ) -> None:
     """Serve the messages of the studio to a program, by the Model Context Protocol."""

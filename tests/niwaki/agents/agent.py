@@ -13,6 +13,8 @@ from niwaki.agents.server import calling
 
 #: The most bytes of a text and of a picture.
 TEXT, PICTURE = 4_000, 100_000
+#: The most times that a client asks for the end of a call.
+ROUNDS = 200
 
 
 class Agent:
@@ -25,12 +27,12 @@ class Agent:
     """
 
     def __init__(self, runner: asyncio.Runner, caller: Caller, folder: Path) -> None:
-        self._runner, self._caller, self.folder = runner, caller, folder
+        self.runner, self.caller, self.folder = runner, caller, folder
         self.sizes: list[tuple[str, int, int]] = []
 
     def once(self, tool: str, **arguments: object) -> Reply:
         """Send one call, and return its answer as it is."""
-        reply = self._runner.run(self._caller.call(tool, arguments))
+        reply = self.runner.run(self.caller.call(tool, arguments))
         size = len(reply.text.encode()), len(reply.picture or b"")
         assert size[0] <= TEXT and size[1] <= PICTURE, (tool, size)
         self.sizes.append((tool, *size))
@@ -39,9 +41,12 @@ class Agent:
     def call(self, tool: str, **arguments: object) -> Reply:
         """Send a call, and ask for its answer until the call has ended."""
         reply = self.once(tool, **arguments)
-        while match := re.match(r"call (\d+): \w+ is at work", reply.text):
+        for _ in range(ROUNDS):
+            match = re.match(r"call (\d+): \w+ is at work", reply.text)
+            if match is None:
+                return reply
             reply = self.once("answer", id=int(match[1]))
-        return reply
+        raise AssertionError(reply.text)
 
     def done(self, tool: str, **arguments: object) -> str:
         """Send a call that must not fail; return its text."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from pathlib import Path
 from typing import get_args
 
 import pytest
@@ -14,6 +15,7 @@ from agent import Agent
 from jsonschema import Draft202012Validator
 from niwaki.agents import answers, tools
 from niwaki.studio import messages as m
+from niwaki.studio.worker import confinement
 
 TOWER = """from niwaki import box, emit, model, uniform
 
@@ -103,6 +105,18 @@ def test_no_message_reaches_a_file_outside_the_folder(agent: Agent, tool: str, n
     text = agent.failed(tool, **{key: name}, **({"text": TOWER} if tool == "write" else {}))
     assert "outside-folder" in text
     assert outside.read_text() == "raise SystemExit('this file was run')\n"
+
+
+@pytest.mark.skipif(confinement.version() == 0, reason="the system has no Landlock")
+def test_a_model_writes_below_the_folder_alone(agent: Agent):
+    # Everybody may write there; the folder for temporary files is open to a worker.
+    outside = Path("/var/tmp") / f"niwaki-{os.getpid()}.txt"
+    program = "from pathlib import Path\n\nPath({!r}).write_text('x')\n" + TOWER
+    text = agent.failed("write", path="writes.py", text=program.format(str(outside)))
+    assert "model-file-failed at writes.py:3:1" in text and "PermissionError" in text
+    assert not outside.exists()
+    agent.done("write", path="writes.py", text=program.format(str(agent.folder / "inside.txt")))
+    assert (agent.folder / "inside.txt").read_text() == "x"
 
 
 def test_a_target_is_a_mesh_below_the_folder(agent: Agent):

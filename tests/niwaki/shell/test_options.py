@@ -65,6 +65,7 @@ FLAGS = {
     "--core": ("--core", None, "Print the core form."),
     "--bytecode": ("--bytecode", None, "Print the bytecode."),
     "--from": ("--from", "RUN.JSON", "A result to start from"),
+    "--result": ("--result", "RUN.JSON", "A result of the model"),
     "--run": ("--run", "N", "Number of the result"),
     "--hold": ("--hold", "PATTERN|NAME=VALUE", "Hold the parts of the result of --from"),
     "--reroll": ("--reroll", "PATTERN", "Grow the parts again that match PATTERN"),
@@ -152,6 +153,7 @@ FLAGS = {
     "--chunk": ("--chunk", "SECONDS", "Seconds of searches that a worker gets at once."),
     "--session": ("--session", "FOLDER", "Folder of the session."),
     "--port": ("--port", "N", "Port of the server"),
+    "--http": ("--http", None, "Serve loopback HTTP"),
     "--browser": ("--browser/--no-browser", None, "Open the page in the browser."),
 }
 
@@ -163,6 +165,8 @@ WORDS = {
     "DRAWING": "An SVG",
     "TEXT": "The text to write.",
     "SPEC": "A TOML file with the model, the seeds, and the settings that vary.",
+    "NEW-FOLDER": "A new folder",
+    "MODELS": "The folder of the models.",
     "FOLDER": "The folder of a batch.",
     "FILE": "The file of a guide.",
     "GENERATOR": "file.py:function, which is run, or an OpenSCAD file",

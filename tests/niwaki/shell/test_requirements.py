@@ -147,8 +147,8 @@ def test_check_says_how_often_each_requirement_holds_and_holds_a_result_against_
     code, output = shell("check", "tower.py")
     assert code == 0 and "requires    height 2 to 3: (kept by " in output
     shell(*GROW, "-o", "out")
-    code, output = shell("check", "tower.py", "--run", "out/run.json", "--json")
+    code, output = shell("check", "tower.py", "--result", "out/run.json", "--json")
     (row,) = json.loads(output)["requirements"]
     assert code == 0 and row["holds"] is True and row["value"].startswith("height ")
     (place / "requirements.toml").write_text("height = [0.0, 1.0]\n")
-    assert shell("check", "tower.py", "--run", "out/run.json")[0] == 1
+    assert shell("check", "tower.py", "--result", "out/run.json")[0] == 1

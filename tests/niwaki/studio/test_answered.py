@@ -32,6 +32,10 @@ FIELDS: dict[type, dict[str, Any]] = {
     m.Choose: {"address": "a", "value": 1.0},
     m.Drag: {"part": "a", "to": [0, 0, 0]},
     m.Rewrite: {"difference": ""},
+    m.Read: {"path": "a.md"},
+    m.Write: {"path": "a.md", "text": ""},
+    m.Explain: {"choice": "a"},
+    m.Fit: {"reference": "a.py:f", "target": {"source": "box"}},
     m.Export: {"key": KEY, "format": "glb"},
 } | dict.fromkeys((m.Describe, m.Show, m.ShowDifference, m.Pick, m.Star, m.Judge), {"key": KEY})
 COMMANDS = get_args(m.AnyCommand)

@@ -16,11 +16,17 @@ from niwaki.studio.window import Window
 #: Formats that `write` writes, and those that `read` reads.
 WRITTEN = (*PROGRAMS, ".md")
 READ = (*WRITTEN, ".toml", ".txt", ".csv", ".json")
+#: The most names of other files in a message.
+BESIDE = 12
 
 
 async def read(session: Session, window: Window, command: m.Read) -> None:
     """Send the text of a file."""
     place = _place(session, command.path, READ, "read")
+    if not place.is_file():
+        beside = sorted(path.name for path in place.parent.glob("*") if path.suffix in READ)
+        listed = f"; beside it: {', '.join(beside[:BESIDE])}" if beside else ""
+        raise CommandError("file-missing", f"there is no file `{command.path}`{listed}")
     text = await asyncio.to_thread(text_of, place, "model", "a text")
     window.tell(m.FileText(command.id, command.path, text))
 
@@ -35,8 +41,7 @@ async def write(session: Session, window: Window, command: m.Write) -> m.Answer 
     if place.suffix != ".py":
         return None
     answer = await reporting.check_model(session, window, command.id, m.CheckModel(reference=str(place)))
-    if answer.problem is None:
-        await loading.reload(session, {place})
+    await loading.reload(session, {place})
     return answer
 
 

@@ -18,20 +18,28 @@ from niwaki.studio.window import Window, newest
 GLIMPSES = 6
 
 
-async def begin(session: Session) -> None:
-    """List the models and load the session's model; then the session is ready for commands."""
+async def begin(session: Session, glimpses: bool = True) -> None:
+    """List the models and load the session's model; then the session is ready for commands.
+
+    Parameters
+    ----------
+    session
+        The session.
+    glimpses
+        Whether to show a run of the first models of the list, for the first screen of the page.
+    """
 
     def report(answer: m.Answer) -> None:
         session.problem = answer.problem or session.problem
         session.ready.set()
 
-    await session.start(_load_lists(session), report)
+    await session.start(_load_lists(session, glimpses), report)
     if session.document.model is not None:
         reference = session.document.model
         await session.searcher.do(m.Load(reference=reference, file=session.drawing_file(reference)))
 
 
-async def _load_lists(session: Session) -> None:
+async def _load_lists(session: Session, glimpses: bool) -> None:
     # This starts the process of the first search in advance.
     session.start(session.searcher.do(m.ListModels(files=[])))
     answer = await session.desk.do(m.ListModels(files=session.files))
@@ -44,7 +52,7 @@ async def _load_lists(session: Session) -> None:
     if session.document.model is None and session.models:
         session.step("model", {"model": session.models[0].reference})
     await load(session, earlier=session.problem)
-    if not session.document.results:
+    if glimpses and not session.document.results:
         session.start(_load_glimpses(session))
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import secrets
 from collections.abc import Awaitable
+from typing import Any
 
 import msgspec
 
@@ -77,7 +78,13 @@ async def fit(session: Session, window: Window, command: m.Fit) -> m.Answer:
         align=command.align,
         folder=str(ensure_folder(session.journal.folder / "fits" / name[:16]).resolve()),
     )
-    return await session.searcher.do(job, answering(window, command.id))
+    answer = answering(window, command.id)
+
+    def report(message: Any, payload: bytes) -> None:
+        if not isinstance(message, m.Progressed):
+            answer(message, payload)
+
+    return await session.searcher.do(job, report)
 
 
 def _model(session: Session) -> str:

@@ -78,7 +78,12 @@ class Session:
         self.windows: set[Window] = set()
         self.files = files
         self.root = None if root is None else Root(root)
-        below = [] if root is None else [f"--below={root.resolve()}"]
+        # A program may write the models below a folder: they write there and into the session alone.
+        below = (
+            []
+            if root is None
+            else [f"--below={root.resolve()}", f"--written={root.resolve()}", f"--written={folder.resolve()}"]
+        )
         words = [*(["--trust"] if trust else []), *below, *files]
         slow: dict[str, Stamp] = {}
         self.searcher = Worker(*words, slow=slow)

@@ -15,6 +15,7 @@
 - `differences`  differences between a result and its target
 - `variety`      different looks of results, and the choice of results to show
 - `permissions`  files that may be run for a stored run
+- `confinement`  the folders below which a worker may write, on Linux
 - `places`       places of choices and parts in the source, and ranges of sliders
 - `shapes`       a scene as a mesh for the page
 - `structures`   structures of blocks: searched, checked, cut

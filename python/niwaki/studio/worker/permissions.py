@@ -17,11 +17,11 @@ from niwaki.inputs.modules import modules as run_modules
 from niwaki.inputs.modules import prefer
 from niwaki.shell.trust import hosts, trusted
 from niwaki.studio.problems import CommandError
-from niwaki.studio.worker import models
+from niwaki.studio.worker import confinement, models
 from niwaki.studio.worker.loading import loading
 
-#: The beginning of a word that names a folder whose files may run.
-BELOW = "--below="
+#: The beginnings of words that name a folder whose files may run, and one below which a worker may write.
+BELOW, WRITTEN = "--below=", "--written="
 
 _trust: list[bool] = [False]
 
@@ -29,11 +29,16 @@ _trust: list[bool] = [False]
 def configure(words: Sequence[str]) -> None:
     """Set the permissions from the words of the command line: references of files, folders, and `--trust`."""
     _trust[0] = "--trust" in words
+    written: list[Path] = []
     for reference in words:
-        if reference.startswith(BELOW):
+        if reference.startswith(WRITTEN):
+            written.append(Path(reference.removeprefix(WRITTEN)).resolve())
+        elif reference.startswith(BELOW):
             models.folders.append(Path(reference.removeprefix(BELOW)).resolve())
         elif reference != "--trust":
             models.named[Path(reference.rpartition(":")[0] or reference).resolve()] = reference
+    if written:
+        confinement.confine(written)
 
 
 def modules(data: dict[str, Any]) -> tuple[str, ...]:

@@ -9,11 +9,8 @@ from pathlib import Path
 from typing import Any
 
 import niwaki as nw
-from niwaki import draw, search
+from niwaki import draw, search, shell
 from niwaki.fitting import FitProgress
-from niwaki.shell import check as checking
-from niwaki.shell import fit as fitting
-from niwaki.shell import show as showing
 from niwaki.studio.messages import (
     Answer,
     Checked,
@@ -37,7 +34,7 @@ def check(job: CheckModel, send: Any) -> Answer:
     """Compile a model, and report on it."""
     _refuse_drawing(job.reference)
     sample = runs.sample(job.source, job.number) if job.source else None
-    send(Checked(job.id, checking.report(models.reference(job.reference), sample, job.arguments)))
+    send(Checked(job.id, shell.check.report(models.reference(job.reference), sample, job.arguments)))
     return Answer()
 
 
@@ -45,15 +42,15 @@ def preview(job: PreviewRuns, send: Any) -> Answer:
     """Run a model without a target, and draw the runs side by side."""
     _refuse_drawing(job.question.model)
     model = models.reference(job.question.model)
-    values = {**showing.start(model), **job.question.arguments}
-    result = showing.prior_runs(model.model, values, job.count, job.seed)
-    send(Previewed(job.id, showing.report(result)))
+    values = {**shell.show.start(model), **job.question.arguments}
+    result = shell.show.prior_runs(model.model, values, job.count, job.seed)
+    send(Previewed(job.id, shell.show.report(result)))
     if any(sample.primitives for sample in result):
         across = min(3, len(result))
 
         def sheet(size: tuple[int, int]) -> Any:
             cell = size[0] * 3 // (2 * across), size[1] * 3 // (2 * across)
-            return showing.sheet(model, result, size=cell, samples=1, columns=across)
+            return shell.show.sheet(model, result, size=cell, samples=1, columns=across)
 
         send(Picture(job.id), pictures.small(sheet))
     return Answer()
@@ -80,7 +77,7 @@ def fit(job: FitParameters, send: Any, check: Callable[[], None]) -> Answer:
     place = Path(job.reference if models.is_file(job.reference) else job.reference.rpartition(":")[0])
     models.check_permission(place)
     with loading(place):
-        generator = fitting.generator_named(job.reference)
+        generator = shell.fit.generator_named(job.reference)
     goal = options.score([("match_volume", {"target": asks.placed(job.target)})])
     start = time.perf_counter()
 
