@@ -33,7 +33,7 @@ NAMES = ("boat", "lamp", "bridge", "vase", "gear", "chair", "stair", "building")
 def asked(name: str, target: int, rough: float) -> dict[str, Any]:
     """Search one problem, and ask for every hidden parameter how sure it is."""
     problem = Problem(GENERATORS[name], target, EVALUATIONS, rough)
-    loop = nw.FitLoop(ours.space(problem), problem.goal, target)
+    loop = nw.FitLoop(ours.ranges(problem.parameters), problem.goal, target)
     while problem.count < EVALUATIONS:
         for point in loop.ask(8):
             if problem.count < EVALUATIONS:
