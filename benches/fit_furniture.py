@@ -94,8 +94,9 @@ def ranged(parameters: list[Parameter]) -> list[Parameter]:
     ]
 
 
-def moved(parts: list[Part], by: tuple[float, float, float]) -> list[Part]:
-    return [(vertices + np.array(by), faces) for vertices, faces in parts]
+def turned(parts: list[Part], depth: float) -> list[Part]:
+    """The bench's shelf is open at z = 0; here its front looks along z, and it stands in the middle."""
+    return [(vertices * [-1, 1, -1] + [0, 0, depth / 2], faces) for vertices, faces in parts]
 
 
 def fitted(generator: str, target: nw.Target) -> tuple[nw.fitting.Answer, Scene]:
@@ -107,8 +108,7 @@ def fitted(generator: str, target: nw.Target) -> tuple[nw.fitting.Answer, Scene]
         _, values = canonical(parameters, raw)
         if generator == "chair":
             return scene_of(joined(furniture.chair(values)))
-        # The front of the bench's shelf is at 0; here the shelf stands in the middle.
-        return scene_of(joined(moved(furniture.shelf(values), (0.0, 0.0, -values["depth"] / 2))))
+        return scene_of(joined(turned(furniture.shelf(values), values["depth"])))
 
     loop = nw.FitLoop(ours.ranges(parameters), nw.match_volume(target), seed=1)
     while loop.evaluated < EVALUATIONS:
