@@ -131,16 +131,19 @@ def check(search: SearchLike) -> None:
     InputError
         `no-emulator`: with the reason.
     """
-    reason = ""
-    if not differences(search.score)[0]:
-        reason = "its score has nothing to learn from but one number: no volume, image, obstacle or box"
-    else:
-        try:
-            structure(search, search.task.uncounted(), search.seed)
-        except Unsuited as error:
-            reason = str(error)
-    if reason:
-        raise InputError("no-emulator", name=search.model.name, reason=reason)
+    _known(search, search.task.uncounted(), search.seed)
+
+
+def _known(search: SearchLike, task: _engine.Task, seed: int) -> tuple[list[Differences], Structure]:
+    """Return what a scene can get wrong, and the choices of the model."""
+    parts, _ = differences(search.score)
+    reason = "its score has nothing to learn from but one number: no volume, image, obstacle or box"
+    try:
+        if parts:
+            return parts, structure(search, task, seed)
+    except Unsuited as error:
+        reason = str(error)
+    raise InputError("no-emulator", name=search.model.name, reason=reason)
 
 
 @dataclass
@@ -180,12 +183,8 @@ def emulated(search: SearchLike, seed: int, watch: EngineWatch) -> Emulated:
         `no-emulator`: the emulator cannot learn the model.
     """
     assert isinstance(search.method, Emulate)
-    parts, _ = differences(search.score)
     task = search.task.uncounted()
-    try:
-        shown = structure(search, task, seed)
-    except Unsuited as error:
-        raise InputError("no-emulator", name=search.model.name, reason=str(error)) from error
+    parts, shown = _known(search, task, seed)
     space = shown.space
     proposer = _engine.Proposer(dumps(space.data()), seed)
     known: dict[tuple[float, ...], _engine.Trace] = {}

@@ -60,6 +60,7 @@ METHODS: dict[str, Callable[[], Any]] = {
     "chains  ": lambda: nw.hmc(10, chains=B),
     "draws ": lambda: nw.nuts(B),
     "sweeps": lambda: nw.pimh(4, B),
+    "emulate": nw.emulate,
     "regrow": lambda: nw.improve(10, regrow=B, rounds=1),
 }
 
