@@ -72,8 +72,8 @@ def pieces(models: zipfile.ZipFile) -> Iterator[tuple[str, str, nw.Target]]:
     """Yield the generator, the name and the mesh of each piece, as large as the catalogue says, on the floor."""
     rows: dict[str, dict[str, str]] = {}
     for line in models.read("PluginFurnitureCatalog.properties").decode("latin1").splitlines():
-        if found := re.match(r"(\w+)#(\d+)=(.*)", line):
-            rows.setdefault(found[2], {})[found[1]] = found[3]
+        if parts := re.match(r"(\w+)#(\d+)=(.*)", line):
+            rows.setdefault(parts[2], {})[parts[1]] = parts[3]
     by_name = {Path(row["model"]).stem: row for row in rows.values()}
     with tempfile.TemporaryDirectory() as folder:
         for generator, names in (("chair", CHAIRS), ("shelf", SHELVES)):

@@ -207,11 +207,11 @@ def emulated(search: SearchLike, seed: int, watch: EngineWatch) -> Emulated:
             if trace is None:
                 proposer.tell(-inf, None)
                 continue
-            made = {choice.path for choice in trace.choices}
+            addresses = {choice.path for choice in trace.choices}
             run, score = trace.run, trace.run.log_score
             if not isfinite(trace.run.log_prior):
                 score = -inf
-            proposer.tell(score, _features(parts, trace), [name in made for name in space.names])
+            proposer.tell(score, _features(parts, trace), [name in addresses for name in space.names])
             out.runs.append(run)
             out.numbers.append(number)
             if best is None or score > best.log_score:
