@@ -30,10 +30,10 @@ FIRST, EVALUATIONS, ROUGH = 10, 150, 0.012
 NAMES = ("boat", "lamp", "bridge", "vase", "gear", "chair", "stair", "building")
 
 
-def asked(name: str, target: int, rough: float) -> dict[str, Any]:
+def answers_of(name: str, target: int, rough: float) -> dict[str, Any]:
     """Search one problem, and ask for every hidden parameter how sure it is."""
     problem = Problem(GENERATORS[name], target, EVALUATIONS, rough)
-    loop = nw.FitLoop(ours.space(problem), problem.goal, target)
+    loop = nw.FitLoop(ours.ranges(problem.parameters), problem.goal, target)
     while problem.count < EVALUATIONS:
         for point in loop.ask(8):
             if problem.count < EVALUATIONS:
@@ -111,7 +111,7 @@ def main() -> int:
         for name in names:
             for rough in (0.0, ROUGH):
                 if (name, target, rough) not in done:
-                    records.add(asked(name, target, rough))
+                    records.add(answers_of(name, target, rough))
                     print(f"{name} {target} {rough}", flush=True)
     text = "\n".join(table(records.rows))
     (folder / "intervals.md").write_text(text + "\n")

@@ -15,7 +15,7 @@ from .problems import IMPOSSIBLE, Problem
 
 def search(problem: Problem, seed: int) -> None:
     """Search until all evaluations are spent."""
-    loop = nw.FitLoop(space(problem), problem.goal, seed)
+    loop = nw.FitLoop(ranges(problem.parameters), problem.goal, seed)
     while problem.count < problem.budget:
         for point in loop.ask(8):
             if problem.count < problem.budget:
@@ -37,11 +37,9 @@ def tell(problem: Problem, loop: nw.FitLoop, point: nw.fitting.Point) -> None:
     loop.tell(point, outcome)
 
 
-def space(problem: Problem) -> dict[str, nw.Parameter]:
+def ranges(parameters: Sequence[Parameter]) -> dict[str, nw.Parameter]:
     """The parameters with their conditions, as far as one earlier parameter decides them."""
-    return {
-        row.name: nw.Parameter(_range(row), condition(problem.parameters, row)) for row in problem.parameters
-    }
+    return {row.name: nw.Parameter(_range(row), condition(parameters, row)) for row in parameters}
 
 
 def condition(rows: Sequence[Parameter], row: Parameter) -> list[dict[str, list[Any]]] | None:

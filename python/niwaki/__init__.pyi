@@ -29,6 +29,7 @@ from .lang.plain import run_python as run_python
 from .lang.residuals import residuals as residuals
 from .methods import Guide as Guide
 from .methods import ais as ais
+from .methods import emulate as emulate
 from .methods import enumerate_all as enumerate_all
 from .methods import explore as explore
 from .methods import forward as forward

@@ -365,11 +365,11 @@ impl PyTask {
             None => Missing::Refuse,
         };
         let trace = self.at_once(py, || {
-            let made = replay(&self.task, Source::Paths(&paths), missing);
-            if let Err(Failure::Run(met)) = &made {
+            let outcome = replay(&self.task, Source::Paths(&paths), missing);
+            if let Err(Failure::Run(met)) = &outcome {
                 self.task.invalid.count(met);
             }
-            made
+            outcome
         })?;
         PyTrace::new(py, trace, classes)
     }

@@ -393,7 +393,7 @@ class Answers(Sequence[Answer]):
         return {}
 
     def _calibrated(self, share: float) -> Calibration:
-        """What evaluations near the best, as targets with known parameters, tell about posteriors."""
+        """The lesson of evaluations near the best, as targets with known parameters, about posteriors."""
         if share not in self._calibrations:
             self._calibrations[share] = self._calibrate(share)
         return self._calibrations[share]

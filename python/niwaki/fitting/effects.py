@@ -67,10 +67,10 @@ def _map(
     blocks: NDArray[np.float64], body: NDArray[np.float64] | None, peak: float, size: int
 ) -> Image.Image:
     """Blocks (x, y, z) summed along z, as seen from the front."""
-    own = _peak(blocks)
+    top = _peak(blocks)
     gain, loss = np.maximum(blocks, 0).sum(2), np.maximum(-blocks, 0).sum(2)
     # Rows from the top: y falls.
-    gain, loss = (np.where(part < LEAST * own, 0.0, part).T[::-1] / peak for part in (gain, loss))
+    gain, loss = (np.where(part < LEAST * top, 0.0, part).T[::-1] / peak for part in (gain, loss))
     paper, less, more, shade = (np.array(color, float) for color in (PAPER, LESS, MORE, SHADE))
     behind = np.broadcast_to(paper, (*gain.shape, 3))
     if body is not None:

@@ -110,12 +110,13 @@ class ScadGenerator(Generator):
                     capture_output=True,
                     text=True,
                 )
-                if "is empty" in done.stderr:
+                # After an error OpenSCAD reports an empty object, too.
+                errors = "; ".join(line for line in done.stderr.splitlines() if line.startswith("ERROR"))
+                if "is empty" in done.stderr and not errors:
                     return None
                 if done.returncode or not place.is_file():
-                    raise RuntimeError(
-                        f"openscad ended with code {done.returncode}: {done.stderr[-SHOWN:].strip()}"
-                    )
+                    shown = errors[:SHOWN] or done.stderr[-SHOWN:].strip()
+                    raise RuntimeError(f"openscad ended with code {done.returncode}: {shown}")
                 return read(place)
 
     def identity(self) -> dict[str, str]:

@@ -131,16 +131,19 @@ def check(search: SearchLike) -> None:
     InputError
         `no-emulator`: with the reason.
     """
-    reason = ""
-    if not differences(search.score)[0]:
-        reason = "its score has nothing to learn from but one number: no volume, image, obstacle or box"
-    else:
-        try:
-            structure(search, search.task.uncounted(), search.seed)
-        except Unsuited as error:
-            reason = str(error)
-    if reason:
-        raise InputError("no-emulator", name=search.model.name, reason=reason)
+    _known(search, search.task.uncounted(), search.seed)
+
+
+def _known(search: SearchLike, task: _engine.Task, seed: int) -> tuple[list[Differences], Structure]:
+    """Return what a scene can get wrong, and the choices of the model."""
+    parts, _ = differences(search.score)
+    reason = "its score has nothing to learn from but one number: no volume, image, obstacle or box"
+    try:
+        if parts:
+            return parts, structure(search, task, seed)
+    except Unsuited as error:
+        reason = str(error)
+    raise InputError("no-emulator", name=search.model.name, reason=reason)
 
 
 @dataclass
@@ -180,12 +183,8 @@ def emulated(search: SearchLike, seed: int, watch: EngineWatch) -> Emulated:
         `no-emulator`: the emulator cannot learn the model.
     """
     assert isinstance(search.method, Emulate)
-    parts, _ = differences(search.score)
     task = search.task.uncounted()
-    try:
-        shown = structure(search, task, seed)
-    except Unsuited as error:
-        raise InputError("no-emulator", name=search.model.name, reason=str(error)) from error
+    parts, shown = _known(search, task, seed)
     space = shown.space
     proposer = _engine.Proposer(dumps(space.data()), seed)
     known: dict[tuple[float, ...], _engine.Trace] = {}
@@ -208,11 +207,11 @@ def emulated(search: SearchLike, seed: int, watch: EngineWatch) -> Emulated:
             if trace is None:
                 proposer.tell(-inf, None)
                 continue
-            made = {choice.path for choice in trace.choices}
+            addresses = {choice.path for choice in trace.choices}
             run, score = trace.run, trace.run.log_score
             if not isfinite(trace.run.log_prior):
                 score = -inf
-            proposer.tell(score, _features(parts, trace), [name in made for name in space.names])
+            proposer.tell(score, _features(parts, trace), [name in addresses for name in space.names])
             out.runs.append(run)
             out.numbers.append(number)
             if best is None or score > best.log_score:

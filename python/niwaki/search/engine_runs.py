@@ -174,12 +174,14 @@ def run_chains(
 def run_emulator(search: SearchLike, method: Emulate, seed: int, watch: EngineWatch) -> Result:
     """Search by an emulator; the best run, or several that differ."""
     clock = Clock()
-    found = emulated.emulated(search, seed, watch)
-    order = sorted(range(len(found.runs)), key=lambda number: -found.runs[number].log_score)
-    if not order or found.runs[order[0]].log_score == -inf:
-        raise _impossible(found)
-    info = EmulateInfo(evaluations=found.evaluations, choices=found.choices, best_at=found.numbers[order[0]])
-    runs = [found.runs[number] for number in order]
+    outcome = emulated.emulated(search, seed, watch)
+    order = sorted(range(len(outcome.runs)), key=lambda number: -outcome.runs[number].log_score)
+    if not order or outcome.runs[order[0]].log_score == -inf:
+        raise _impossible(outcome)
+    info = EmulateInfo(
+        evaluations=outcome.evaluations, choices=outcome.choices, best_at=outcome.numbers[order[0]]
+    )
+    runs = [outcome.runs[number] for number in order]
     runs = runs[:1] if method.diverse is None else distinct(runs, method.diverse, info)
     seconds = clock.read()
     samples = [Sample(run, search, seed, *seconds) for run in runs]
@@ -188,16 +190,16 @@ def run_emulator(search: SearchLike, method: Emulate, seed: int, watch: EngineWa
         samples,
         seed,
         info=info,
-        interrupted=found.interrupted,
-        invalid=list(found.invalid),
+        interrupted=outcome.interrupted,
+        invalid=list(outcome.invalid),
         seconds=seconds,
     )
 
 
-def _impossible(found: emulated.Emulated) -> InputError:
+def _impossible(outcome: emulated.Emulated) -> InputError:
     """The error about a search without a possible run."""
-    causes = Counter(run.cause or "a choice outside of its range" for run in found.runs)
-    causes.update({f"`{entry.name}`": entry.runs for entry in found.invalid})
+    causes = Counter(run.cause or "a choice outside of its range" for run in outcome.runs)
+    causes.update({f"`{entry.name}`": entry.runs for entry in outcome.invalid})
     listed = ", ".join(f"{cause} ({count})" for cause, count in causes.most_common())
     return InputError(
         "everything-impossible", barrier="the end", count=causes.total(), constraint=listed, cure=LOOSEN

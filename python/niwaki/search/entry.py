@@ -281,15 +281,15 @@ def _by_engine(search: Search, engine: str, settings: Mapping[str, Any], is_free
         Whether no method was given.
     """
     if engine == "emulator" or "evaluations" in settings:
-        others = [name for name in settings if name not in OF_EMULATE]
+        of_sampler = [name for name in settings if name not in OF_EMULATE]
         wrong = "" if is_free else "method"
-        wrong = wrong or ("engine" if engine == "sampler" else next(iter(others), ""))
+        wrong = wrong or ("engine" if engine == "sampler" else next(iter(of_sampler), ""))
         if wrong:
-            found = engine if wrong == "engine" else settings.get(wrong, search.method.NAME)
+            value = engine if wrong == "engine" else settings.get(wrong, search.method.NAME)
             raise InputError(
                 "bad-setting",
                 name=wrong,
-                found=repr(found),
+                found=repr(value),
                 expected='nothing of the sampler together with `evaluations` or `engine="emulator"`',
                 suggestion="only one of the two",
             )

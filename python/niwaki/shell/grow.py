@@ -294,7 +294,7 @@ def _summary(result: nw.Result, place: Path, clock: Clock, verbose: bool) -> Non
         typer.secho(warning, fg="red", err=True)
     if (
         verbose
-        and isinstance(result.info, results.info.ImproveInfo)
+        and isinstance(result.info, results.info.ImproveInfo | results.info.EmulateInfo)
         and len({sample.seed for sample in result}) == 1
     ):
         print(result.info)

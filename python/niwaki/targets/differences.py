@@ -11,7 +11,6 @@ empty scene loses, for the empty scene. So a product of sketches puts them side 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from math import sqrt
 from typing import Any, Protocol
 
 import numpy as np
@@ -92,8 +91,8 @@ class VolumeDifferences:
         want = self.grid.cells()
         self.low, self.high = call.arguments["target"].bounds
         self.length = float((self.high - self.low).max())
-        self.wall = 2.0 * sqrt(float(want.sum())) / self.length
         self.want = self.sums(want)
+        self.ends = self._ends(want)
         empty = float(np.sqrt((self.want**2).sum()))
         self.unit = _lost(call) / empty
 
@@ -132,9 +131,31 @@ class VolumeDifferences:
         else:
             middle = 0.5 * (self.low + self.high)
             box = np.concatenate([middle - self.low, middle - self.high])
-        # A scene far away is as wrong as one that is three lengths too large.
-        box = np.clip(box, -3.0 * self.length, 3.0 * self.length)
-        return np.concatenate([sums, self.wall * box]) * self.unit
+        # A scene that is far too large is not much more wrong than one that is twice as long.
+        return np.concatenate([sums, self.ends * box / (1.0 + np.abs(box) / self.length)]) * self.unit
+
+    def _ends(self, want: NDArray[np.bool_]) -> NDArray[np.float64]:
+        """The weights of the six sides of the box, for each unit of length.
+
+        What sticks out of the grid has no cells there. It weighs as if the target went on at this end: as the blocks
+        of a further layer of cells.
+        """
+        low, high = self.grid.domain
+        voxel = float(np.mean((np.asarray(high) - low) / self.grid.dims))
+        places = np.argwhere(want)
+        weights = []
+        for side in (0, 1):
+            for axis in range(3):
+                first, last = (
+                    (int(places[:, axis].min()), int(places[:, axis].max())) if len(places) else (0, 0)
+                )
+                thick = max(1, round(max(self.grid.dims) / BLOCKS))
+                slab = slice(first, first + thick) if side == 0 else slice(last + 1 - thick, last + 1)
+                layers = np.take(want, range(*slab.indices(want.shape[axis])), axis).sum(axis) / thick
+                for place, other in enumerate(k for k in range(3) if k != axis):
+                    layers = np.add.reduceat(layers, self.cuts[other], axis=place)
+                weights.append(BLOCK * float(np.sqrt((layers**2).sum())) / voxel)
+        return np.array(weights)
 
 
 class PixelDifferences:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
 from enum import Enum
 from typing import Annotated, Literal
@@ -192,6 +193,25 @@ def test_the_library_evaluates_a_file(tmp_path):
     (tmp_path / "box.scad").write_text(SCAD)
     vertices, _ = mesh_of(nw.scad(tmp_path / "box.scad").call({"width": 33.0}).mesh)
     assert vertices.max() == 33.0
+
+
+@pytest.mark.skipif(shutil.which("openscad") is None, reason="OpenSCAD is not installed")
+def test_openscad_itself_evaluates_a_file(tmp_path, monkeypatch):
+    monkeypatch.setattr("niwaki.fitting.openscad.find_spec", lambda name: None)
+    part = tmp_path / "part.scad"
+    part.write_text("module part(w) { cube([w, 2, 3]); }\n")
+    (tmp_path / "box.scad").write_text(
+        'width = 40; // [20:80]\nkind = "box"; // [box, none, wrong]\nuse <part.scad>\n'
+        'if (kind == "box") part(width);\nif (kind == "wrong") assert(false, "no such kind");\n'
+    )
+    generator = nw.scad(tmp_path / "box.scad")
+    vertices, _ = mesh_of(generator.call({"width": 33.0, "kind": 0}).mesh)
+    assert vertices.min(0).tolist() == [0.0, 0.0, 0.0] and vertices.max(0).tolist() == [33.0, 2.0, 3.0]
+    assert generator.call({"width": 33.0, "kind": 1}).mesh is None
+    with pytest.raises(RuntimeError, match="no such kind"):
+        generator.call({"width": 33.0, "kind": 2})
+    # No file is left beside the model.
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["box.scad", "part.scad"]
 
 
 def test_a_file_without_parameters_is_refused(tmp_path):

@@ -186,6 +186,18 @@ def test_sensitivity_names_the_parts_that_move(searched: FitLoop):
     assert picture.shape[1] > 100 and (picture == fitting.effects.MORE).all(2).any()
 
 
+def test_what_sticks_out_of_the_target_counts_as_much_as_what_is_missing():
+    def length(width: float) -> float:
+        scene = Scene([("block", [nw.box((0, 0.5, 0), (width, 1, 1))])])
+        return float(np.linalg.norm(goal.measure(scene).features))
+
+    goal = Goal.of(nw.match_volume(nw.Target.of_shapes(nw.box((0, 0.5, 0), (2, 1, 1)))))
+    # Ten cells more are outside of the grid; ten cells less are not.
+    assert 0.7 < length(2.5) / length(1.5) < 1.4
+    assert 1.3 < length(2.5) / length(2.25) < 2.3
+    assert length(2.0) == 0.0 and length(40.0) < 10 * length(1.0)
+
+
 def test_goals_of_every_kind_have_differences():
     block = target({**HIDDEN, "knob": False})
     image = np.zeros((40, 60), np.uint8)

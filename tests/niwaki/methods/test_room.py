@@ -60,6 +60,7 @@ METHODS: dict[str, Callable[[], Any]] = {
     "chains  ": lambda: nw.hmc(10, chains=B),
     "draws ": lambda: nw.nuts(B),
     "sweeps": lambda: nw.pimh(4, B),
+    "evaluations": lambda: nw.emulate(B),
     "regrow": lambda: nw.improve(10, regrow=B, rounds=1),
 }
 
@@ -92,6 +93,7 @@ COUNTS: dict[str, Callable[[Any], Any]] = {
     "sweeps": lambda n: nw.pimh(4, n),
     "rounds": lambda n: nw.improve(rounds=-1 if n is None else n),
     "improve": nw.improve,
+    "emulate": nw.emulate,
     "regrow": lambda n: nw.improve(regrow=n),
     "steps": nw.mh,
     "chains": lambda n: nw.mh(chains=n),

@@ -144,6 +144,18 @@ def test_what_no_emulator_can_search_is_refused(model, settings, reason):
         grow_search(model, target(desk, 3), rule="none", seed=1, **settings)
 
 
+def test_a_score_without_differences_is_refused_and_so_is_a_search_inside():
+    with pytest.raises(InputError, match="nothing to learn from but one number"):
+        nw.run(desk, nw.emulate(10), seed=1)
+
+    @nw.model
+    def outer():
+        return nw.infer(desk, nw.emulate(10))
+
+    with pytest.raises(nw.NiwakiError, match="emulate"):
+        nw.run(outer, seed=1)
+
+
 def test_all_families_of_numbers_have_places():
     @nw.model
     def many():

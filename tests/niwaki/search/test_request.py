@@ -201,6 +201,7 @@ def test_every_method_and_sketch_goes_through_json():
         nw.ais(5, (0.1, 1), moves=2),
         nw.forward(2),
         nw.improve(rounds=3, seconds=2),
+        nw.emulate(20, 2),
     ]
     assert {type(kind).NAME for kind in methods} == set(Method.KNOWN)
     for method in methods:
