@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from statistics import median
 from typing import Annotated, Any
 
 import typer
@@ -257,7 +258,7 @@ def _too_little(result: nw.Result) -> str:
     fit = result.best.fit
     if fit is None or fit.covered >= LITTLE:
         return ""
-    text = f"warning: the best run covers only {percent(fit.covered)} of the target"
+    text = f"warning: the best run covers only {percent(fit.covered)} of the target" + _too_coarse(result)
     blame = getattr(getattr(result.info, "losses", None), "blame", ())
     if not blame:
         return text
@@ -266,6 +267,16 @@ def _too_little(result: nw.Result) -> str:
     if first.constraint == "no_self_intersection":
         cure += ', or let limbs bend with `joint="round"`; `--rule none` allows all overlaps'
     return f"{text}: most lost runs ended because {first}\n  {cure}"
+
+
+def _too_coarse(result: nw.Result) -> str:
+    """Return a line about cells that are larger than half of the parts are thick, or nothing."""
+    sizes = [call.arguments["voxel"] for call in result.search.score.asks if call.function == "match_volume"]
+    boxes = [shape.aabb() for part in result.best.parts for shape in part.shapes]
+    sides = [min(high - low for low, high in zip(*box, strict=True)) for box in boxes]
+    if not sizes or not sides or (thick := median(sides)) >= sizes[0]:
+        return ""
+    return f"\n  half of its parts are thinner than a cell of {sizes[0]:.3g}: try `--voxel {0.5 * thick:.2g}`"
 
 
 def _summary(result: nw.Result, place: Path, clock: Clock, verbose: bool) -> None:

@@ -181,3 +181,12 @@ def test_words_in_place_of_a_function_or_a_list_are_refused_with_what_to_write()
         kind.program()
     with pytest.raises(ModelFault, match=re.escape("`choose(['gable', 'hip'])`")):
         nw.run_python(kind, seed=1)
+
+
+def test_a_word_that_a_file_does_not_import_is_refused_with_its_import():
+    @nw.model
+    def late():
+        return nw.lerp(0.0, 1.0, 0.5)
+
+    with pytest.raises(ModelError, match="write `from niwaki.words import lerp`"):
+        late.program()
