@@ -39,11 +39,11 @@ def bits(result):
     "settings", [{"particles": 7, "power": 0.01}, {"particles": 40, "populations": 2}], ids=["few", "many"]
 )
 def test_particles_have_the_same_bits_on_every_number_of_threads(settings):
-    first, *others = (
+    first, *results = (
         nw.run(wall, nw.smc(**settings), score=score(), seed=4, threads=threads) for threads in (1, 2, 3)
     )
     assert len({sample.choices["x"] for sample in first.samples}) > 1
-    for other in others:
+    for other in results:
         assert bits(other) == bits(first)
     # A run with these choices has the score of the particle: scenes that grow are scored as whole ones.
     for sample in first.samples[:3]:
