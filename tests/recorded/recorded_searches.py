@@ -100,6 +100,43 @@ def guided(name: str, subject: Subject, method: Callable[..., Method]) -> Iterat
     yield f"{name}, guided", lambda: subject.run(method(guide=subject.guide()))
 
 
+@nw.model
+def solids() -> None:
+    """One of each solid of points or of a round form, of a size of its own, and one with a hole."""
+
+    def size() -> Any:
+        return nw.uniform(0.4, 1.0)
+
+    wide = size()
+    star = [(wide, 0.0), (0.2, 0.2), (0.0, wide), (-0.2, 0.2), (-wide, 0.0), (0.0, -wide)]
+    triangle = [(-0.1, -0.1), (0.1, -0.1), (0.0, 0.1)]
+    shapes = [
+        nw.sphere((0.0, 0.0, 0.0), 0.5 * size()),
+        nw.ellipsoid((3.0, 0.0, 0.0), (size(), 0.5, size())),
+        nw.cone((6.0, 0.0, 0.0), 0.5, size()),
+        nw.wedge((0.0, 3.0, 0.0), (size(), 0.8, 0.8), ridge=0.5 * size()),
+        nw.torus((3.0, 3.0, 0.0), 0.5 * size(), 0.15),
+        nw.arch((6.0, 3.0, 0.0), (size(), size(), 0.3), 0.1),
+        nw.extrude(star, size(), (0.0, 6.0, 0.0), twist=0.5 * size(), taper=0.5),
+        nw.revolve([(0.0, 0.0), (size(), 0.0), (0.3, 0.5), (0.0, 1.0)], (3.0, 6.0, 0.0)),
+        nw.sweep(triangle, [(5.0, 6.0, 0.0), (5.5, 6.0 + size(), 0.0), (6.0, 6.5, 0.5)]),
+        nw.hull([(0.0, 9.0, 0.0), (size(), 9.0, 0.0), (0.0, 9.0, size()), (0.2, 9.0 + size(), 0.2)]),
+        nw.box((3.0, 9.0, 0.0), (size(), size(), 0.5))
+        - nw.cylinder((3.0, 9.0, 0.0), 0.2 * size(), 1.0, axis="z"),
+    ]
+    for shape in shapes:
+        nw.emit(shape)
+
+
+def solids_score() -> nw.Score:
+    """A block to be filled, into which the solids go."""
+    block = nw.Target.of_shapes(nw.box((3.0, 4.5, 0.0), (8.0, 11.0, 1.0)))
+    return nw.no_self_intersection() * nw.match_volume(block, 0.25)
+
+
+SOLIDS = Subject(solids, (), solids_score)
+
+
 class Ended(Exception):
     """Ends a search from within."""
 
@@ -283,6 +320,8 @@ def of_the_rest() -> Iterator[tuple[str, Search]]:
     yield "more", lambda: MIXTURE.run(nw.mh(300, kernel=resumed.ALL, keep=20)).more(200)
     yield "polish", lambda: TREE.run(nw.smc(20)).polish(nw.mh(100, keep=10))
     yield "regrow of a part", lambda: simple_ship_grown().regrow("body", 20)
+    yield "smc of every solid", lambda: SOLIDS.run(nw.smc(20, power=0.1))
+    yield "mh of every solid", lambda: SOLIDS.run(nw.mh(200, keep=20))
     yield "drag", lambda: dragged(post, "top", (1.0, 0.5, 1.0))
     yield "drag of an arm", lambda: dragged(arm, "hand", (1.5, 1.0, 0.0))
     yield "drag out of reach", lambda: dragged(post, "top", (0.0, 0.5, 3.0))

@@ -73,12 +73,20 @@ def bind(
     return bound
 
 
+#: Keywords of calls that make a choice or a part, which shapes and helpers do not have.
+OF_SITES = {
+    "label": "`label=` is for choices, parts and calls of your functions: give it to `emit`, the choice or the call",
+    "name": "`name=` names a part: write `emit(..., name=...)`",
+}
+
+
 def unknown(
     body: Body, keyword: ast.keyword, name: str, names: Sequence[str], place: Span | None = None
 ) -> NoReturn:
     """Refuse a keyword that is not a parameter, and suggest the nearest parameter."""
     close = nearest(keyword.arg or "", names)
     hint = f"did you mean `{close[0]}`?" if close else f"its parameters are {', '.join(names) or 'none'}"
+    hint = OF_SITES.get(keyword.arg or "", hint)
     body.refuse("unknown-keyword", keyword, place, name=name, keyword=keyword.arg, suggestion=hint)
 
 

@@ -14,6 +14,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from niwaki import words
 from niwaki.lang import vocabulary
 from niwaki.lang.body import Block, Body, stable
 from niwaki.lang.core import Expr, Form, literal
@@ -99,7 +100,7 @@ def resolve(body: Body, node: ast.Name) -> Any:
     if value is MISSING:
         local = [*(name for scope in body.scopes.of.values() for name in (*scope.variables, *scope.nested))]
         close = nearest(node.id, [*body.namespace.names(), *local])
-        hint = (
+        hint = _import_of(node.id) or (
             f"did you mean `{close[0]}`?"
             if close
             else f"give `{node.id}` a value before the model is defined, or as an argument"
@@ -343,8 +344,14 @@ def static(body: Body, node: ast.expr) -> Any:
         return getattr(owner, node.attr)
     except AttributeError:
         close = nearest(node.attr, dir(owner))
-        hint = f"did you mean `{close[0]}`?" if close else f"`{owner.__name__}` has no such name"
-        body.refuse("unknown-name", node, name=f"{owner.__name__}.{node.attr}", suggestion=hint)
+        other = f"did you mean `{close[0]}`?" if close else f"`{owner.__name__}` has no such name"
+        hint = _import_of(node.attr) if owner.__name__ == "niwaki" else ""
+        body.refuse("unknown-name", node, name=f"{owner.__name__}.{node.attr}", suggestion=hint or other)
+
+
+def _import_of(name: str) -> str:
+    """Return how to import a word of the language that a file lacks; empty for other names."""
+    return f"write `from niwaki.words import {name}`" if name in words.__all__ else ""
 
 
 def array_of_mesh(owner: Any, name: str) -> Any:

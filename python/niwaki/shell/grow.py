@@ -10,6 +10,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any
 
+import numpy as np
 import typer
 
 import niwaki as nw
@@ -278,7 +279,7 @@ def _too_little(result: nw.Result) -> str:
     fit = result.best.fit
     if fit is None or fit.covered >= LITTLE:
         return ""
-    text = f"warning: the best run covers only {percent(fit.covered)} of the target"
+    text = f"warning: the best run covers only {percent(fit.covered)} of the target" + _sizes(result)
     blame = getattr(getattr(result.info, "losses", None), "blame", ())
     if not blame:
         return text
@@ -286,7 +287,27 @@ def _too_little(result: nw.Result) -> str:
     cure = (_engine.SKETCHES.get(first.constraint) or ("", ""))[1]
     if first.constraint == "no_self_intersection":
         cure += ', or let limbs bend with `joint="round"`; `--rule none` allows all overlaps'
-    return f"{text}: most lost runs ended because {first}\n  {cure}"
+    return f"{text}: most lost runs ended because {first.text(result.model.labels)}\n  {cure}"
+
+
+#: How much larger a target is than a run if the two are of different scales.
+OTHER_SCALE = 3.0
+
+
+def _sizes(result: nw.Result) -> str:
+    """Return lines about a run of another scale than its target, and about cells larger than its parts are thick."""
+    boxes = np.array([shape.aabb() for part in result.best.parts for shape in part.shapes])
+    cells = [call.arguments["voxel"] for call in result.search.score.asks if call.function == "match_volume"]
+    target = result.search.score.target
+    if not len(boxes) or not cells or target is None:
+        return ""
+    text, extent = "", float((boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)).max())
+    goal, thick = float(target.size.max()), float(np.median((boxes[:, 1] - boxes[:, 0]).min(axis=1)))
+    if goal > OTHER_SCALE * extent:
+        text += f"\n  the run is {extent:.3g} long, and the target {goal:.3g}: are both in the same unit?"
+    if thick < cells[0]:
+        text += f"\n  half of its parts are thinner than a cell of {cells[0]:.3g}: try `--voxel {0.5 * thick:.2g}`"
+    return text
 
 
 def _summary(result: nw.Result, place: Path, clock: Clock, verbose: bool) -> None:

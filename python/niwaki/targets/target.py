@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from niwaki import _engine, draw, targets
 from niwaki._engine import Shape
 from niwaki.draw.scene import Scene
-from niwaki.errors import FileError
+from niwaki.errors import FileError, InputError
 from niwaki.errors.settings import bad
 from niwaki.errors.warned import warn
 from niwaki.inputs.guard import reason_of
@@ -170,6 +170,8 @@ class Target(Mesh):
             target = example()
             target.source = f"gallery:{example.__name__}"
             return target
+        if source.startswith("gallery:") and not Path(source).exists():
+            raise InputError("no-example", name=source, examples=", ".join(sorted(targets.examples.TARGETS)))
         return cls.load(source)
 
     def __repr__(self) -> str:

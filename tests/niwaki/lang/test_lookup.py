@@ -131,6 +131,7 @@ def test_a_deep_call_is_found_by_its_whole_label_and_a_list_of_a_recursion_ends(
         (nw.discrete_uniform, 7, "a whole number from 1 to 3"),
         (nw.gamma, -1.0, "a number of at least 0"),
     ],
+    ids=["uniform", "discrete", "gamma"],
 )
 def test_a_value_out_of_range_is_refused_with_the_range(dist, value, range_text):
     @nw.model
@@ -181,3 +182,18 @@ def test_words_in_place_of_a_function_or_a_list_are_refused_with_what_to_write()
         kind.program()
     with pytest.raises(ModelFault, match=re.escape("`choose(['gable', 'hip'])`")):
         nw.run_python(kind, seed=1)
+
+
+def test_a_word_that_a_file_does_not_import_is_refused_with_its_import():
+    @nw.model
+    def late():
+        return nw.lerp(0.0, 1.0, 0.5)
+
+    @nw.model
+    def named():
+        nw.emit(nw.box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), label="door"))
+
+    with pytest.raises(ModelError, match="write `from niwaki.words import lerp`"):
+        late.program()
+    with pytest.raises(ModelError, match="give it to `emit`"):
+        named.program()

@@ -159,6 +159,14 @@ INPUTS = (
         cure="@model\ndef m():\n    return gaussian(0, 1)",
     ),
     Message(
+        "no-example",
+        "there is no target `{name}`",
+        why="`gallery:` stands before the name of an example target; `niwaki models` shows the target of each model",
+        help="write one of {examples}",
+        example="niwaki grow castle --target gallery:castle",
+        cure="niwaki grow castle --target gallery:fortress",
+    ),
+    Message(
         "missing-choice",
         '`choices` has no value for "{address}"',
         why="the nearest addresses in `choices` are {nearest}",
