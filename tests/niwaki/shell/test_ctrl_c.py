@@ -81,7 +81,12 @@ SHORT = {"models", "doctor", "studio"}
 
 @contextmanager
 def pressing(*_: Any, **__: Any) -> Iterator[Callable[[str], None]]:
-    yield lambda text: signal.raise_signal(signal.SIGINT)
+    def press(text: str) -> None:
+        # Before the first whole population there is no result to keep.
+        if "evaluations" not in text or "covered" in text:
+            signal.raise_signal(signal.SIGINT)
+
+    yield press
 
 
 @pytest.fixture
