@@ -59,7 +59,8 @@ def progress_line(
     def text() -> str:
         now = latest
         if evaluations is not None and evaluations.calls:
-            steps, left = str(evaluations), evaluations.seconds_left
+            number = f"run {now.run + 1} of {now.runs}, " if now is not None and now.runs > 1 else ""
+            steps, left = f"{number}{evaluations}", evaluations.seconds_left
         elif now is not None:
             steps, left = f"run {now.run + 1} of {now.runs}, step {now.done}, {now.ended} ended", None
         else:
