@@ -32,9 +32,9 @@ def small(page) -> Image.Image:
     return Image.fromarray(np.rint(levels * step).astype(np.uint8))
 
 
-def differing(one: Image.Image, other: Image.Image) -> list[tuple[int, int]]:
+def differing(picture: Image.Image, stored: Image.Image) -> list[tuple[int, int]]:
     """List the places, pixels of the page, of blocks that differ."""
-    first, second = (np.asarray(image, dtype=float) for image in (one, other))
+    first, second = (np.asarray(image, dtype=float) for image in (picture, stored))
     if first.shape != second.shape:
         return [(0, 0)]
     high, wide = (side // BLOCK * BLOCK for side in first.shape)
