@@ -227,12 +227,12 @@ def test_a_save_by_rename_twice_at_once_is_one_reload_with_the_same_seed_and_sco
     at_rest(page)
     steps = page.evaluate("window.__studio.view.undo")
     first = page.evaluate("window.__studio.view.results[0]")
-    others = [pile.with_suffix(f".{number}") for number in range(2)]
-    for other in others:
-        other.write_text(good + "\n")
+    copies = [pile.with_suffix(f".{number}") for number in range(2)]
+    for copy in copies:
+        copy.write_text(good + "\n")
     try:
-        for other in others:
-            other.rename(pile)
+        for copy in copies:
+            copy.rename(pile)
         until(page, f"window.__studio.view.undo == {steps + 1}")
         again = page.evaluate("window.__studio.view.results[0]")
         assert (again["log_score"], again["seed"]) == (first["log_score"], first["seed"])

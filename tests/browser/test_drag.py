@@ -5,12 +5,10 @@ A test also records the animation of the manual, into `out/studio/drag.gif`.
 
 from __future__ import annotations
 
-import io
-
 import numpy as np
 import pytest
 from niwaki import studio
-from PIL import Image, ImageDraw
+from studio_film import Clip, frame, write
 from studio_page import OUT, at_rest, choose, click_part, grow, picture, timed, until
 
 #: The frames of the animation: size in pixels, colours, and duration, milliseconds.
@@ -41,21 +39,12 @@ def branch(page):
     return address, box["x"] + x, box["y"] + y
 
 
-def frame(page, pointer=None):
-    """Take a frame of the animation: the middle of the scene, with the pointer."""
+def clip_of(page):
+    """The piece of the page in a frame: the middle of the scene."""
     box = page.locator("main.stage").bounding_box()
     height = ZOOM * box["height"]
     width = height * SIZE[0] / SIZE[1]
-    left, top = box["x"] + (box["width"] - width) / 2, box["y"] + 3
-    clip = {"x": left, "y": top, "width": width, "height": height}
-    with Image.open(io.BytesIO(page.screenshot(clip=clip))) as shot:
-        picture = shot.convert("RGB").resize(SIZE, Image.Resampling.LANCZOS)
-    if pointer is not None:
-        x, y = (pointer[0] - left) * SIZE[0] / width, (pointer[1] - top) * SIZE[1] / height
-        pen = ImageDraw.Draw(picture)
-        pen.ellipse((x - 7, y - 7, x + 7, y + 7), outline=(255, 255, 255), width=4)
-        pen.ellipse((x - 6, y - 6, x + 6, y + 6), outline=(30, 30, 34), width=2)
-    return picture
+    return Clip(box["x"] + (box["width"] - width) / 2, box["y"] + 3, width, height, SIZE)
 
 
 def test_a_branch_goes_to_the_pointer_and_the_rest_is_grown_again(tree):
@@ -66,7 +55,8 @@ def test_a_branch_goes_to_the_pointer_and_the_rest_is_grown_again(tree):
     picked = page.evaluate("window.__studio.view.picked")
     before = np.array(page.evaluate("window.__studio.camera"))
     page.evaluate("document.activeElement.blur()")
-    frames = [frame(page, (x, y))] * 6
+    clip = clip_of(page)
+    frames = [frame(page, clip, (x, y))] * 6
     page.mouse.move(x, y)
     page.mouse.down()
     with timed("drag"):
@@ -77,7 +67,7 @@ def test_a_branch_goes_to_the_pointer_and_the_rest_is_grown_again(tree):
         moves = page.evaluate("window.__studio.shown.moves")
         page.mouse.move(*to)
         until(page, f"window.__studio.shown.moves > {moves} && window.__studio.isStill")
-        frames.append(frame(page, to))
+        frames.append(frame(page, clip, to))
     drag = page.evaluate("window.__studio.drag")
     assert drag["left"] <= 0.01 or drag["reason"]
     frames += [frames[-1]] * 6
@@ -88,11 +78,9 @@ def test_a_branch_goes_to_the_pointer_and_the_rest_is_grown_again(tree):
     page.keyboard.up("Shift")
     at_rest(page)
     until(page, "window.__studio.isStill")
-    frames += [frame(page)] * 16
+    frames += [frame(page, clip)] * 16
     assert (np.array(page.evaluate("window.__studio.camera")) == before).all()
-    OUT.mkdir(parents=True, exist_ok=True)
-    first, *rest = [image.quantize(COLORS, dither=Image.Dither.NONE) for image in frames]
-    first.save(OUT / "drag.gif", save_all=True, append_images=rest, duration=STEP, loop=0, optimize=True)
+    write(frames, [STEP] * len(frames), OUT / "drag.gif", COLORS)
 
 
 def test_escape_cancels_a_drag(tree):

@@ -122,6 +122,10 @@ def test_the_difference_to_a_target_has_the_cells_that_the_engine_counts(open_pa
         until(page, "window.__studio.counts")
         counts = page.evaluate("window.__studio.counts")
         assert (counts["covered"], counts["missing"], counts["outside"]) == engine_fit(served, key)
+        # The numbers below the result are rounded in the same way.
+        legend = page.locator(".legend .quiet").inner_text()
+        caption = page.locator("[role=option][aria-selected=true] .caption span").inner_text()
+        assert legend == caption.replace("\u00a0", " ") and legend.endswith("% outside")
         page.locator("[role=option]").nth(1).click()
         until(page, "window.__studio.view.picked.number == 1")
     page.keyboard.press("x")

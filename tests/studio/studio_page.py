@@ -48,6 +48,7 @@ LIMITS = {
     "difference": 0.1,
     "compare": 0.1,
     "export": 2.0,
+    "frame": 0.1,
 }
 times: dict[str, float] = {}
 
@@ -58,6 +59,7 @@ JOURNEYS = {
         "first shape": "Grow: the first shape",
         "gallery": "the gallery, from the first shape on",
         "difference": "X: the difference from the target",
+        "frame": "a frame of the scene with a spaceship, while the view turns",
     },
     "draw": {"stroke": "release the pen: the silhouette is the goal"},
     "shape by hand": {

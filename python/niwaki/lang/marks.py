@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import Any, Generic, ParamSpec, TypeVar, cast, overload
+from typing import Any, ClassVar, Generic, ParamSpec, TypeVar, cast, overload
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -35,7 +35,11 @@ class Host(Marked[P, T]):
     ----------
     threads : bool
         Whether the function may run on several threads at once.
+    around : callable or None
+        Receives each function with its arguments and calls it, to count the calls of all host functions.
     """
+
+    around: ClassVar[Callable[..., Any] | None] = None
 
     def __init__(self, function: Callable[P, T], threads: bool = False) -> None:
         super().__init__(function)
@@ -43,7 +47,10 @@ class Host(Marked[P, T]):
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> T:
         """Call the function."""
-        return self.function(*args, **kwargs)  # type: ignore[no-any-return]
+        around = Host.around
+        if around is None:
+            return self.function(*args, **kwargs)  # type: ignore[no-any-return]
+        return around(self.function, *args, **kwargs)  # type: ignore[no-any-return]
 
     def __repr__(self) -> str:
         return f"<host function {self.name}>"

@@ -23,6 +23,7 @@ from niwaki.result import parts
 from niwaki.shares import percent
 from niwaki.shell import (
     controls,
+    evaluations,
     folders,
     formats,
     origin,
@@ -72,7 +73,8 @@ def grow(
             context, source.resume, "grow", Contents.of_data
         )
         with held_folder(source.resume) as folder:
-            result = _run(search, reference, threads, stored, clock, verbose)
+            _, spent, _ = evaluations.sized(search, is_free=False)
+            result = _run(search, reference, threads, stored, clock, verbose, spent)
             _end(result, reference, folder, contents, out, stored, clock, verbose)
         return
     patterns, values = origin.read(origin_flags)
@@ -107,6 +109,14 @@ def grow(
             )
         else:
             search = earlier.search_again(reference, search_flags, method_settings, arguments, hold or None)
+    is_free = earlier is None and not set(settings.typed(method_settings)) & {
+        "particles",
+        "rounds",
+        "seconds",
+    }
+    search, spent, note = evaluations.sized(search, is_free)
+    if note:
+        print(note, file=sys.stderr)
     diverse = method_settings["diverse"]
     selection.exported(flags.export, search_flags.runs if diverse is None else diverse)
     contents = Contents(files, images, flags.export, None if earlier is None else earlier.data())
@@ -123,7 +133,7 @@ def grow(
             else:
                 if folder is not None:
                     checkpoint = resume.new_checkpoint(folder, "grow", reference, **asdict(contents))
-                result = _run(search, reference, threads, checkpoint, clock, verbose)
+                result = _run(search, reference, threads, checkpoint, clock, verbose, spent)
         _end(result, reference, folder, contents, out, checkpoint, clock, verbose, single_file)
 
 
@@ -140,6 +150,7 @@ def _run(
     checkpoint: nw.Checkpoint | None,
     clock: Clock,
     verbose: bool,
+    spent: evaluations.Evaluations,
 ) -> nw.Result:
     """Run the search, with a line about its progress, until results keep the requirements beside the model."""
     rules = requirements.beside(reference)
@@ -151,7 +162,8 @@ def _run(
         return replace(search, seed=seed).run(threads=threads, progress=progress)
 
     with clock.part("search"):
-        with progress_line(reference.name, verbose) as progress, resume.report_interrupt(checkpoint, "grow"):
+        line = progress_line(reference.model.name, verbose, spent)
+        with line as progress, resume.report_interrupt(checkpoint, "grow"):
             return requirements.keeping(rules, attempt, search.seed)
 
 

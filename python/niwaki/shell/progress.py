@@ -6,11 +6,12 @@ import math
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 
 from rich.console import Console
 
 from niwaki import batches, result
+from niwaki.shell.evaluations import Evaluations
 
 #: Seconds between two lines where stderr is a file or a pipe; a short run prints nothing.
 EVERY = 5.0
@@ -39,20 +40,40 @@ def status_line(title: str, keeps_best: bool = True) -> Iterator[Callable[[str],
 
 
 @contextmanager
-def progress_line(name: str, verbose: bool) -> Iterator[Callable[[result.Progress], None]]:
-    """Show the progress of `grow`: the fit of the best so far, and with `verbose` its log score."""
-    best, fit = -math.inf, ""
+def progress_line(
+    name: str, verbose: bool, evaluations: Evaluations | None = None
+) -> Iterator[Callable[[result.Progress], None]]:
+    """Show the progress of `grow`: the fit of the best so far, and with `verbose` its log score.
 
-    def text(now: result.Progress) -> str:
-        nonlocal best, fit
+    With `evaluations`, the line counts runs of the model by calls of its host functions, and changes with each call.
+    """
+    best, fit, latest = -math.inf, "", None
+
+    def update(now: result.Progress) -> None:
+        nonlocal best, fit, latest
+        latest = now
         if now.sample is not None and now.best > best:
             best, fit = now.best, str(now.sample.fit or "")
-        steps = f"run {now.run + 1} of {now.runs}, step {now.done}, {now.ended} ended"
-        scored = verbose or (now.sample is not None and not fit)
-        return ", ".join([steps, *([fit] if fit else []), *([f"best {_best(now)}"] if scored else [])])
+        show(text())
+
+    def text() -> str:
+        now = latest
+        if evaluations is not None and evaluations.calls:
+            number = f"run {now.run + 1} of {now.runs}, " if now is not None and now.runs > 1 else ""
+            steps, left = f"{number}{evaluations}", evaluations.seconds_left
+        elif now is not None:
+            steps, left = f"run {now.run + 1} of {now.runs}, step {now.done}, {now.ended} ended", None
+        else:
+            return "the first run"
+        is_scored = now is not None and (now.sample is not None and not fit or (verbose and now.ended > 0))
+        parts = [steps, fit, f"best {_best(now)}" if now is not None and is_scored else ""]
+        parts.append("" if left is None else f"about {duration(left)} left")
+        return ", ".join(part for part in parts if part)
 
     with status_line(f"growing {name}") as show:
-        yield lambda now: show(text(now))
+        counted = nullcontext() if evaluations is None else evaluations.counted(lambda: show(text()))
+        with counted:
+            yield update
 
 
 @contextmanager

@@ -139,6 +139,7 @@ Object.assign(window, {
     get counts() {
       return store.difference.value === null ? null : store.counts.value;
     },
+    frameSeconds: (count: number) => stage.frameSeconds(count),
     /** Whether nothing on the page is still being drawn or moving. */
     get isStill() {
       const isMoving = (animation: Animation) => animation.effect?.getComputedTiming().endTime !== Infinity;

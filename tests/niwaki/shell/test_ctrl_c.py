@@ -81,7 +81,17 @@ SHORT = {"models", "doctor", "studio"}
 
 @contextmanager
 def pressing(*_: Any, **__: Any) -> Iterator[Callable[[str], None]]:
-    yield lambda text: signal.raise_signal(signal.SIGINT)
+    count = 0
+
+    def press(text: str) -> None:
+        nonlocal count
+        # Before the end of the first run there is no result to keep. A warning calls host functions
+        # again after the search, where a person would not press a second time.
+        if "evaluations" not in text or ("run 2" in text and count == 0):
+            count += 1
+            signal.raise_signal(signal.SIGINT)
+
+    yield press
 
 
 @pytest.fixture

@@ -159,7 +159,9 @@ def test_a_word_is_written(tmp_path: Path) -> None:
     assert done.exit_code == 0, done.output
     assert sorted(place.name for place in tmp_path.iterdir()) == ["growth.gif", "word.png", "word.svg"]
     assert re.match(
-        r"H 0\.\d\d  i 0\.\d\d\n2 letters in .* seed 1; word\.png, word\.svg, growth\.gif in ", done.stdout
+        r"H 0\.\d\d  i 0\.\d\d\n"
+        r"2 letters in [\d.]+ s, pictures in [\d.]+ s, seed 1; word\.png, word\.svg, growth\.gif in ",
+        done.stdout,
     )
     with Image.open(tmp_path / "word.png") as picture:
         assert picture.width == 160

@@ -16,6 +16,7 @@ from niwaki.studio import messages as m
 from niwaki.studio import process
 from niwaki.studio.process import Worker
 from niwaki.studio.session import Session, begin, reload
+from niwaki.studio.worker import models, offers
 from studio_process import PILE
 
 #: Texts of files, and a part of the message about each.
@@ -182,3 +183,12 @@ def test_processes_of_a_file_end_with_its_worker(tmp_path, monkeypatch):
             await asyncio.sleep(0.02)
 
     alive(work())
+
+
+def test_all_models_of_a_file_are_offered(tmp_path, monkeypatch):
+    place = tmp_path / "two.py"
+    place.write_text(PILE + PILE.partition('"""A pile."""')[2].replace("def pile(", "def heap("))
+    monkeypatch.setitem(models.named, place.resolve(), str(place))
+    answer = offers.listed(m.ListModels(files=[str(place)]))
+    files = [info.reference for info in answer.models if info.is_file]
+    assert files == [f"{place}:pile", f"{place}:heap"]

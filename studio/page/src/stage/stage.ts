@@ -137,6 +137,18 @@ export class Stage {
     return all.map(({ material }) => material);
   }
 
+  /** The seconds that a frame takes, the mean of several. */
+  frameSeconds(count: number): number {
+    const [gl, pixel] = [this.renderer.getContext(), new Uint8Array(4)];
+    const start = performance.now();
+    for (let k = 0; k < count; k++) {
+      this.renderer.render(this.scene, this.camera);
+      // A pixel can be read only when the frame is drawn.
+      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    }
+    return (performance.now() - start) / 1000 / count;
+  }
+
   /** Whether the canvas shows the present contents. */
   get isDrawn(): boolean {
     return !this.isAsked;

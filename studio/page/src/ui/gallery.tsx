@@ -107,7 +107,8 @@ function Card({ outcome, number }: { outcome: Outcome; number: number }) {
       onPictureOf(name, null);
     };
   }, [name, theme]);
-  const share = outcome.note || outcome.fit;
+  // A number and its sign stay on a line.
+  const share = (outcome.note || outcome.fit).replace(/ %/g, "\u00a0%");
   const score = outcome.log_score === null ? "impossible" : outcome.log_score.toFixed(1);
   return (
     <div
