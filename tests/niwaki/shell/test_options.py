@@ -85,6 +85,7 @@ FLAGS = {
     "--receiver": ("--receiver", "FILE", "A mesh that the shadow falls on."),
     "--voxel": ("--voxel", "SIZE", "Cell size."),
     "--sigma": ("--sigma", "NUMBER", "Strictness of the match; smaller is stricter."),
+    "--volume-weight": ("--volume-weight", "cells|balanced", "Which cells count around a target: all,"),
     "--rule": ("--rule", "solid|surface|none", "Which parts count as intersecting; none: parts may overlap."),
     "--rules": ("--rules", "FILE", "A TOML file with rules for the regions."),
     "--strictness": ("--strictness", "NUMBER", "Strictness of the rules; larger is stricter."),
