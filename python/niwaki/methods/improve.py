@@ -47,7 +47,7 @@ class Improve(Method):
         What tells results apart. "kind": finite choices and numbers of calls that carry at least a tenth of the scene's
         cells. "look": the share of filled cells in common. A list of choices, by address or label: a result for each
         combination of their values. The key of a `query`: a result for each of its values.
-    within
+    margin
         The nats below the best within which a result of another kind comes before a second result of one kind. None for
         no limit.
     bins
@@ -66,14 +66,14 @@ class Improve(Method):
     seconds: float | None = None
     diverse: int | None = None
     by: str | tuple[str, ...] = "kind"
-    within: float | None = 3.0
+    margin: float | None = 3.0
     bins: int = 10
     proposal: Kernel | None = None
     guide: InitVar[Guide | None] = None
 
     def __post_init__(self, guide: Guide | None) -> None:
         """Check the settings."""
-        for name in ("power", "seconds", "within"):
+        for name in ("power", "seconds", "margin"):
             self._set(name, as_real(getattr(self, name)))
         self._set("by", _names(self.by))
         self._set("proposal", with_guide(self.proposal, guide))

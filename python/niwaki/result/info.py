@@ -333,6 +333,8 @@ class ImproveInfo(Info):
         numbers of iterations; a place that ends in "/" is that of a call, and its value the number of calls.
     niches : int
         The number of kinds that the search for several results has met and keeps.
+    other_work : int
+        The work of its searches for other kinds, in the unit of the work of rounds.
     losses : Losses
         The particles that became impossible in the population that lived.
     seconds : tuple of float
@@ -344,6 +346,7 @@ class ImproveInfo(Info):
     searches: int = 1
     kinds: tuple[dict[str, str], ...] = ()
     niches: int = 0
+    other_work: int = 0
     losses: Losses = Losses()  # noqa: RUF009
     seconds: tuple[float, ...] = field(default=(), compare=False)
 

@@ -131,7 +131,7 @@ def archive(
     by
         What tells kinds apart, as for `improve`.
     method
-        `improve(...)` with the settings of the search; its `diverse`, `by` and `within` are those of the archive.
+        `improve(...)` with the settings of the search; its `diverse`, `by` and `margin` are those of the archive.
     settings
         Further arguments of `grow`.
 
@@ -152,7 +152,7 @@ def archive(
     if method is None:
         own = {name: settings.pop(name) for name in ("rounds", "bins", "guide") if name in settings}
         method = Improve(**own)
-    method = replace(method, diverse=kinds, by=by, within=None)
+    method = replace(method, diverse=kinds, by=by, margin=None)
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", TOO_FEW, SearchWarning)
         return Archive(grow(model, *args, method=method, **settings))

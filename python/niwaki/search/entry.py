@@ -28,7 +28,7 @@ from niwaki.targets.sketches import FREE, Score, match_volume, no_self_intersect
 from niwaki.targets.target import Target
 
 #: The settings of `improve`, the default search of `grow`.
-OF_IMPROVE = ("rounds", "seconds", "diverse", "by", "within", "bins", "guide")
+OF_IMPROVE = ("rounds", "seconds", "diverse", "by", "margin", "bins", "guide")
 #: The settings of `smc`; with one of these, `grow` searches by one population.
 OF_SMC = (*(field.name for field in fields(Smc)), "guide")
 
@@ -147,7 +147,7 @@ def grow(
     target
         The volume to fill: a `Target`, or a file. It may be left out if `score` has something to match.
     args, kwargs
-        The model's arguments. `rounds`, `seconds`, `diverse`, `by`, `within`, `bins` and `guide` are settings of the
+        The model's arguments. `rounds`, `seconds`, `diverse`, `by`, `margin`, `bins` and `guide` are settings of the
         default search. With any other setting of `smc` (particles, order, power, ...) the search is one population by
         these settings, with a default `power` of 16 for ratio weights (1 for drawings). With a `guide` and no other
         setting of the default search it is one population, too, by default of 50 particles with tempered resampling.

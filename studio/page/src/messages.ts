@@ -85,6 +85,7 @@ export interface SettingsChange {
   seed?: number | null;
   effort?: number;
   strength?: number;
+  by?: "kind" | "look";
 }
 
 /** Set arguments by name, or settings; other values stay. */
@@ -283,6 +284,7 @@ export interface Settings {
   seed?: number | null;
   effort?: number;
   strength?: number;
+  by?: "kind" | "look";
 }
 
 /** A result in the gallery: its key and its numbers; scores in nats. */
@@ -297,6 +299,7 @@ export interface Outcome {
   covered: number | null;
   outside: number | null;
   note: string;
+  kind: string;
   fit: string;
 }
 

@@ -67,7 +67,7 @@ pub struct Improve {
     by: By,
     /// Most nats below the best for a result of another kind to come before a second one of a kind.
     #[serde(default)]
-    within: Option<f64>,
+    margin: Option<f64>,
     /// The number of bins of a real value.
     #[serde(default = "usual_bins")]
     bins: usize,
@@ -100,6 +100,8 @@ pub struct Improved {
     pub kinds: Vec<BTreeMap<String, String>>,
     /// The number of kinds in the archive of a search for several results.
     pub niches: usize,
+    /// The work of the searches for other kinds.
+    pub other_work: u64,
     /// Whether the search was stopped.
     pub interrupted: bool,
     /// Particles of the first surviving population that became impossible.
@@ -115,7 +117,7 @@ impl Improve {
         ("rounds", Range::Optional(&COUNT)),
         ("seconds", Range::Optional(&POSITIVE)),
         ("diverse", Range::Optional(&COUNT)),
-        ("within", Range::Optional(&FROM_ZERO)),
+        ("margin", Range::Optional(&FROM_ZERO)),
         ("bins", COUNT),
     ];
 

@@ -141,7 +141,6 @@ impl<'a> Search<'a> {
     }
 
     /// A search from a run and a chain's state at it, with rounds of this work, and with what another search has learnt.
-    #[expect(clippy::too_many_arguments, reason = "the state of a search")]
     pub fn at(
         improve: &'a Improve,
         task: &'a Task,

@@ -9,6 +9,7 @@ from math import isfinite
 from typing import Any, Literal
 
 import numpy as np
+from msgspec import structs
 from numpy.typing import NDArray
 
 import niwaki as nw
@@ -16,6 +17,7 @@ from niwaki.lang.compiled import translated
 from niwaki.result import Progress, Result, Sample
 from niwaki.result.progress import Watch
 from niwaki.result.search_like import SearchLike
+from niwaki.search import named
 from niwaki.shell.references import ModelReference
 from niwaki.studio.messages import (
     Answer,
@@ -102,12 +104,17 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
         **goals,
         rounds=max(1, round(ROUNDS * settings.effort)),
         diverse=variety.candidates(settings.count, settings.strength) if settings.count > 1 else None,
+        by=settings.by,
         seed=job.seed,
         hold=runs.values(job.question.hold) or None,
         progress=watching(job.id, job.run, send, check),
     )
+    kinds = dict(zip(map(id, result.samples), named(result), strict=True))
     result.samples = variety.spread(ended(result), settings.count, settings.strength)
-    return _answer(result, model, job.run, job.file, "run", send, job.id)
+    answer = _answer(result, model, job.run, job.file, "run", send, job.id)
+    words = [", ".join(f"{name}: {value}" for name, value in kinds[id(sample)]) for sample in result.samples]
+    outcomes = [structs.replace(each, kind=text) for each, text in zip(answer.outcomes, words, strict=True)]
+    return structs.replace(answer, outcomes=outcomes)
 
 
 def watching(job: int, run: int, send: Any, check: Callable[[], None]) -> Watch:

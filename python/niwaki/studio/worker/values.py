@@ -30,6 +30,7 @@ def grow(job: GrowValues, send: Any, check: Callable[[], None]) -> Answer:
         score=targets.asks.score(goals),
         rounds=max(1, round(jobs.ROUNDS * job.settings.effort)),
         diverse=job.settings.count if job.settings.count > 1 else None,
+        by=job.settings.by,
         seed=job.seed,
         progress=jobs.watching(job.id, job.run, send, check),
         **job.arguments,

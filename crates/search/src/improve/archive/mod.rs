@@ -1,7 +1,7 @@
 //! The best of every kind: a search for several results that differ, around an archive of the best runs of each niche.
 //!
 //! 1. The search for the best is made as it is alone, so that the best result is no worse than without the archive.
-//! 2. A population of low power shows the structure of the model: which finite choices and calls tell kinds apart (`structure`).
+//! 2. A population of low power and runs of the prior show the structure of the model: which finite choices and calls tell kinds apart (`structure`).
 //!    It is fixed then. What tells niches apart follows from it, or from the names that a user gave (`niche`).
 //! 3. Generations of short searches, side by side. Some turn one choice of a good run so that a niche comes that was never met, and
 //!    grow what it brings; others improve the run of a promising niche with its choices held; where there are fewer niches
@@ -194,7 +194,7 @@ pub(super) fn search(
     }
     task.invalid.add(uncounted.invalid.counts());
     info.searches = 1 + archive.searches as usize;
-    info.niches = archive.niches.len();
+    (info.niches, info.other_work) = (archive.niches.len(), archive.work);
     let (runs, kinds): (Vec<Run>, Vec<Kind>) = archive.chosen().into_iter().unzip();
     info.kinds = kinds;
     Ok((runs, info))
@@ -228,6 +228,17 @@ impl<'a> Archive<'a> {
             }
             Err(failure) if failure.is_impossible() => {}
             Err(failure) => return Err(failure),
+        }
+        // The particles are akin; runs of the prior are not, and show what the model has.
+        for number in 0..improve.particles.div_ceil(2) {
+            let streams = Streams::new(part_seed(seed, number as u64, 8), 0);
+            match State::tried(task, streams, 1, None) {
+                Ok((state, ..)) => runs.push(state.run(&task.program, 0)),
+                Err(Failure::NoStart { .. }) => {}
+                Err(failure) if failure.is_impossible() => {}
+                Err(failure) => return Err(failure),
+            }
+            work += runs.last().map_or(1, |run| run.primitives as u64 + 1);
         }
         let mut seen = HashSet::new();
         runs.retain(|run| seen.insert((run.log_score.to_bits(), run.log_prior.to_bits(), run.primitives)));
@@ -419,10 +430,10 @@ impl<'a> Archive<'a> {
             let (niche, hold) = (Some((*key).clone()), niche.entries[0].features.clone());
             jobs.push(Job { number: 0, niche, hold, known: None, learnt: None });
         }
-        // The most promising niches: a search without a gain counts as `within` nats.
+        // The most promising niches: a search without a gain counts as `margin` nats.
         let mut promising = ranked;
-        let within = self.improve.within.unwrap_or(UNLIMITED);
-        let promise = |niche: &Niche| niche.entries[0].run.log_score - within * niche.idle as f64;
+        let margin = self.improve.margin.unwrap_or(UNLIMITED);
+        let promise = |niche: &Niche| niche.entries[0].run.log_score - margin * niche.idle as f64;
         promising.sort_by(|a, b| promise(b.1).total_cmp(&promise(a.1)));
         for (key, niche) in promising.into_iter().take(GENERATION.saturating_sub(jobs.len())) {
             let entry = &niche.entries[niche.searches as usize % if few { niche.entries.len() } else { 1 }];
@@ -451,7 +462,11 @@ impl<'a> Archive<'a> {
     ///
     /// # Errors
     /// A fault of the program.
-    fn turned(&self, ranked: &[(&Kind, &Niche)], rng: &mut Stream) -> Result<(Option<(Job, Kind)>, u64), Failure> {
+    fn turned(
+        &self,
+        ranked: &[(&Kind, &Niche)],
+        rng: &mut Stream,
+    ) -> Result<(Option<(Job, Kind)>, u64), Failure> {
         // Better niches are turned more often.
         let place = below(rng, ranked.len()).min(below(rng, ranked.len()));
         let Some(entry) = ranked.get(place).and_then(|(_, niche)| niche.entries.first()) else {
@@ -504,12 +519,16 @@ impl<'a> Archive<'a> {
         all.sort_by(|a, b| b.1.run.log_score.total_cmp(&a.1.run.log_score));
         let candidates: Vec<Candidate<'_>> = all
             .iter()
-            .map(|(niche, entry)| Candidate { score: entry.run.log_score, niche: *niche, cells: &entry.cells })
+            .map(|(niche, entry)| Candidate {
+                score: entry.run.log_score,
+                niche: *niche,
+                cells: &entry.cells,
+            })
             .collect();
         let by = &self.improve.by;
         let rule = Rule {
             count: self.count,
-            within: self.improve.within.unwrap_or(f64::INFINITY),
+            margin: self.improve.margin.unwrap_or(f64::INFINITY),
             by_look: by.is_look(),
             each: by.is_named(),
         };
