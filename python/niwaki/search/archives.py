@@ -20,6 +20,7 @@ from niwaki.errors.settings import count
 from niwaki.lang.models import Model
 from niwaki.methods import Improve, Method
 from niwaki.result import Result, Sample
+from niwaki.result.info import ImproveInfo
 from niwaki.search.entry import grow
 from niwaki.search.kinds import TOO_FEW, named
 from niwaki.search.warnings import SearchWarning
@@ -152,7 +153,19 @@ def archive(
     if method is None:
         own = {name: settings.pop(name) for name in ("rounds", "bins", "guide") if name in settings}
         method = Improve(**own)
-    method = replace(method, diverse=kinds, by=by, margin=None)
+    method = replace(method, diverse=kinds, by=by if isinstance(by, str) else tuple(by), margin=None)
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", TOO_FEW, SearchWarning)
-        return Archive(grow(model, *args, method=method, **settings))
+        result = grow(model, *args, method=method, **settings)
+    return Archive(_of_each_kind(result))
+
+
+def _of_each_kind(result: Result) -> Result:
+    """Keep the best sample of each kind."""
+    info = result.info
+    if isinstance(info, ImproveInfo) and len(info.kinds) == len(result):
+        first = {tuple(kind.items()): place for place, kind in reversed([*enumerate(info.kinds)])}
+        places = sorted(first.values())
+        result.samples = [result.samples[place] for place in places]
+        result.info = replace(info, kinds=tuple(info.kinds[place] for place in places))
+    return result

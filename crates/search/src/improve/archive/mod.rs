@@ -25,6 +25,7 @@ use look::{Cells, bounds, cells_of, grid};
 use niche::Niches;
 use niwaki_chain::walk::state::State;
 use niwaki_chain::walk::streams::Streams;
+use niwaki_geom::sketch::product::Sketches;
 use niwaki_geom::{Aabb, Grid, vec3};
 use niwaki_math::Stream;
 use niwaki_particles::distinct::Choices;
@@ -121,6 +122,8 @@ struct Job {
     /// The values of other choices; `None` to start from a population.
     known: Option<HashMap<u128, Value>>,
     learnt: Option<Learnt>,
+    /// The score below which the known values are no place to begin, nats: half of what a good run had is lost.
+    least: f64,
 }
 
 /// What a short search returns: its best runs in order, with what it had learnt then, and its work.
@@ -428,7 +431,7 @@ impl<'a> Archive<'a> {
         for at in 0..wanted.saturating_sub(jobs.len()) {
             let Some((key, niche)) = ranked.get(at % ranked.len().max(1)).filter(|_| few) else { break };
             let (niche, hold) = (Some((*key).clone()), niche.entries[0].features.clone());
-            jobs.push(Job { number: 0, niche, hold, known: None, learnt: None });
+            jobs.push(Job { number: 0, niche, hold, known: None, learnt: None, least: f64::NEG_INFINITY });
         }
         // The most promising niches: a search without a gain counts as `margin` nats.
         let mut promising = ranked;
@@ -443,6 +446,7 @@ impl<'a> Archive<'a> {
                 hold: entry.features.clone(),
                 known: Some(known_of(&entry.run)),
                 learnt: entry.learnt.clone(),
+                least: f64::NEG_INFINITY,
             });
         }
         for job in &mut jobs {
@@ -480,7 +484,9 @@ impl<'a> Archive<'a> {
         let Some(trace) = turned(&self.bare, &rest, choice, rng)? else { return Ok((None, work)) };
         rest.remove(&choice.address);
         let hold = self.entry(Run::default(), &trace, None).features;
-        let job = Job { number: 0, niche: None, hold, known: Some(rest), learnt: None };
+        let empty = Sketches::start(&self.task.sketches).total().value();
+        let least = 0.5 * (entry.run.log_score + empty);
+        let job = Job { number: 0, niche: None, hold, known: Some(rest), learnt: None, least };
         Ok((Some((job, self.rules.niche(&trace))), work))
     }
 
@@ -578,9 +584,10 @@ fn run(
         Some(Err(failure)) if failure.is_impossible() => None,
         Some(Err(failure)) => return Err(failure),
     };
-    let start = match state {
-        Some(state) => (state.run(&held.program, 0), state),
-        None => {
+    let turned = state.map(|state| (state.run(&held.program, 0), state));
+    let start = match turned {
+        Some(turned) if turned.0.log_score >= job.least => turned,
+        turned => {
             let particles = (FRESH * improve.particles as f64).ceil() as usize;
             let (power, proposal) = (improve.power, improve.drawn_by.clone());
             let settings = Settings { particles, seed, power, proposal, ..Settings::default() };
@@ -590,9 +597,13 @@ fn run(
                     if result.interrupted {
                         return Ok((vec![], work));
                     }
-                    best_of(&held, result)?
+                    let grown = best_of(&held, result)?;
+                    turned.into_iter().fold(grown, |a, b| if b.0.log_score > a.0.log_score { b } else { a })
                 }
-                Err(failure) if failure.is_impossible() => return Ok((vec![], work + slice)),
+                Err(failure) if failure.is_impossible() => match turned {
+                    Some(turned) => turned,
+                    None => return Ok((vec![], work + slice)),
+                },
                 Err(failure) => return Err(failure),
             }
         }
