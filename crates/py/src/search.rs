@@ -497,6 +497,7 @@ impl PyTask {
                 dict.set_item("rounds", PyTuple::new(py, rounds.clone().map(of))?)?;
                 dict.set_item("seconds", PyTuple::new(py, rounds.map(|round| round.time.as_secs_f64()))?)?;
                 dict.set_item("searches", result.searches)?;
+                dict.set_item("price", result.price)?;
                 dict.set_item("losses", faults::losses(py, &result.lost, &self.task.program)?)?;
             }
             Info::Chain(result) => {
