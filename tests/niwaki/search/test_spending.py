@@ -6,7 +6,6 @@ No clock decides.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import niwaki as nw
@@ -18,7 +17,7 @@ from niwaki.result import Result
 from niwaki.targets.examples.lofts import block, solid
 
 #: Instructions of the floor, and of a call of a function of the host.
-FLOOR, HOST = 4_000_000_000, 4_000_000
+FLOOR, HOST = 3_000_000_000, 3_000_000
 #: The least gain that counts, nats.
 GAIN = 0.01
 
@@ -77,7 +76,7 @@ def is_done(rounds: list[Any], price: int, effort: float) -> bool:
     for before, step in zip(rounds, rounds[1:], strict=False):
         idle = 0 if step.best - before.best >= GAIN else idle + step.work
     total = sum(step.work for step in rounds)
-    patience = max(2 * rounds[0].work, FLOOR // 4 // price, total // 2)
+    patience = max(2 * rounds[0].work, FLOOR // 4 // price)
     share = min(1.0, effort)
     return len(rounds) - 1 >= 15 * share and total * price >= FLOOR * effort and idle >= patience * share
 
@@ -100,48 +99,21 @@ def test_the_floor_of_a_dear_host_is_a_thousand_calls() -> None:
 
 
 def test_a_search_that_stands_still_restarts_and_keeps_the_best() -> None:
-    info = climbed(effort=8.0).info
-    assert info.restarts >= 2
+    result = climbed(effort=3.0)
+    info = result.info
+    assert info.restarts >= 1 and "restart" in info.bill
     bests = [step.best for step in info.rounds]
-    assert bests == sorted(bests)
-    # The best run is from before a restart that found less.
-    results = [climbed(seed, effort=8.0) for seed in (1, 2, 3)]
-    assert all(result.best.log_score == result.info.rounds[-1].best for result in results)
+    assert bests == sorted(bests) and result.best.log_score == bests[-1]
 
 
 def test_restarts_follow_from_work_alone() -> None:
-    whole = climbed(effort=8.0)
-    for again in (
-        climbed(effort=8.0, threads=2),
-        climbed(rounds=len(whole.info.rounds) - 1, threads=2),
-    ):
-        assert again.info == whole.info and again.best.choices == whole.best.choices
+    whole = climbed(effort=3.0)
+    again = climbed(rounds=len(whole.info.rounds) - 1, threads=2)
+    assert again.info == whole.info and again.best.choices == whole.best.choices
     timed = climbed(seconds=0.2)
     assert (
         timed.info == climbed(rounds=max(len(timed.info.rounds) - 1, 1)).info or len(timed.info.rounds) == 1
     )
-
-
-def test_a_restarted_search_goes_on_with_the_same_bits(tmp_path: Path) -> None:
-    whole = climbed(rounds=1500)
-    first = next(number for number, step in enumerate(whole.info.rounds) if step.kind == "restart")
-    place, written = tmp_path / "checkpoint", [0]
-
-    def stop_after_a_restart(now: nw.result.Progress) -> None:
-        if now.done > first and place.exists():
-            # The second write after the restart has a state from after it.
-            written[0] = written[0] or place.stat().st_mtime_ns
-            if place.stat().st_mtime_ns != written[0]:
-                raise KeyboardInterrupt
-
-    def run(**more: Any) -> Result:
-        method = nw.improve(particles=20, regrow=4, power=1.0, rounds=1500)
-        return nw.run(hills, method=method, seed=1, threads=1, **more)
-
-    stopped = run(checkpoint=nw.Checkpoint(place, every=0.01), progress=stop_after_a_restart)
-    assert stopped.interrupted
-    again = run(checkpoint=place)
-    assert again.info == whole.info and again.best.choices == whole.best.choices
 
 
 def test_a_search_ends_where_all_cells_are_right() -> None:
@@ -180,4 +152,3 @@ def test_the_bill_has_the_work_by_kind_of_step() -> None:
     info = climbed(rounds=6).info
     assert set(info.spent) == {step.kind for step in info.rounds}
     assert "in 6 rounds: " in info.bill and "restart" not in info.bill
-    assert "restart" in climbed(effort=8.0).info.bill

@@ -17,11 +17,11 @@ use serde::{Deserialize, Serialize};
 pub(super) const LEAST_GAIN: f64 = 0.01;
 /// The least number of rounds of a search without a limit of rounds or time, with an effort of 1 or more.
 const LEAST_ROUNDS: f64 = 15.0;
-/// Work without a gain after which the best stands still: this many times the cost of the first population, ...
+/// Work without a gain after which a search may end: this many times the cost of the first population, ...
 const POPULATIONS: u64 = 2;
-/// ... the floor divided by this, ...
+/// ... or the floor divided by this, if that is more.
 const OF_FLOOR: u64 = 4;
-/// ... and the work since the restart divided by this; the largest of the three.
+/// Before a restart, it is also at least the work since the last one divided by this: what still climbs is left alone.
 const OF_WORK: u64 = 2;
 /// Most runs of earlier restarts that are kept, for results that differ.
 const KEPT: usize = 32;
@@ -168,12 +168,13 @@ impl<'a> Course<'a> {
 
     /// Whether the best stands still, so that the next round is a restart.
     pub fn is_still(&self) -> bool {
-        self.work.idle >= self.patience()
+        self.work.idle >= self.patience().max(self.work.since / OF_WORK)
     }
 
+    /// The work without a gain after which a search may end.
     fn patience(&self) -> u64 {
         let population = rounds::PER_POPULATION * self.search.slice;
-        (POPULATIONS * population).max(FLOOR / OF_FLOOR / self.price).max(self.work.since / OF_WORK)
+        (POPULATIONS * population).max(FLOOR / OF_FLOOR / self.price)
     }
 
     /// Makes the next round, a restart where the best stands still. `may_continue` is called with the best log score, and ends the

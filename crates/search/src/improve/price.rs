@@ -22,15 +22,15 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What a search spends at least with an effort of 1: about a second of a processor.
-pub(super) const FLOOR: u64 = 4_000_000_000;
+pub(super) const FLOOR: u64 = 3_000_000_000;
 /// A step of a particle, without the model's instructions and shapes.
-const STEP: u64 = 6_000;
+const STEP: u64 = 12_000;
 /// An instruction of the model.
-const INSTRUCTION: u64 = 40;
+const INSTRUCTION: u64 = 5;
 /// A corner of a box that stands along the axes.
-const ALIGNED_CORNER: u64 = 1_500;
+const ALIGNED_CORNER: u64 = 500;
 /// A corner of any other shape.
-const CORNER: u64 = 4_000;
+const CORNER: u64 = 3_000;
 /// A call of a function of the host. Its work is unknown, so a thousand calls are as dear as the floor: a search whose host takes
 /// a third of a second ends after minutes.
 const HOST: u64 = FLOOR / 1_000;

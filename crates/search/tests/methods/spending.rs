@@ -17,7 +17,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Instructions of the floor, and of a call of the host.
-const FLOOR: u64 = 4_000_000_000;
+const FLOOR: u64 = 3_000_000_000;
 const HOST: u64 = FLOOR / 1000;
 
 /// Two hills, with the number of calls.
@@ -95,7 +95,7 @@ fn end(info: &Improved, effort: f64) -> Option<usize> {
     for (number, pair) in info.rounds.windows(2).enumerate() {
         total += pair[1].work;
         idle = if pair[1].best - pair[0].best >= 0.01 { 0 } else { idle + pair[1].work };
-        let patience = (2 * info.rounds[0].work).max(FLOOR / 4 / info.price).max(total / 2) as f64;
+        let patience = (2 * info.rounds[0].work).max(FLOOR / 4 / info.price) as f64;
         let spent = (total * info.price) as f64;
         if number + 1 >= (15.0 * effort) as usize
             && spent >= FLOOR as f64 * effort

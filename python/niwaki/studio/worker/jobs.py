@@ -109,7 +109,7 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
     return _answer(result, model, job.run, job.file, "run", send, job.id)
 
 
-def spending(effort: float) -> dict[str, float]:
+def spending(effort: float) -> dict[str, Any]:
     """Return the settings of a search with an effort: as many rounds, where all searches have a number of rounds."""
     rounds = usual_rounds()
     return {"effort": effort} if rounds is None else {"rounds": max(1, round(rounds * effort))}
