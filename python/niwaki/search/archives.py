@@ -151,7 +151,7 @@ def archive(
             suggestion="`improve(...)`",
         )
     if method is None:
-        own = {name: settings.pop(name) for name in ("rounds", "bins", "guide") if name in settings}
+        own = {name: settings.pop(name) for name in ("rounds", "effort", "bins", "guide") if name in settings}
         method = Improve(**own)
     method = replace(method, diverse=kinds, by=by if isinstance(by, str) else tuple(by), margin=None)
     with warnings.catch_warnings():

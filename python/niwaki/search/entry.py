@@ -28,7 +28,7 @@ from niwaki.targets.sketches import FREE, Score, match_volume, no_self_intersect
 from niwaki.targets.target import Target
 
 #: The settings of `improve`, the default search of `grow`.
-OF_IMPROVE = ("rounds", "seconds", "diverse", "by", "margin", "bins", "guide")
+OF_IMPROVE = ("rounds", "seconds", "effort", "diverse", "by", "margin", "bins", "guide")
 #: The settings of `smc`; with one of these, `grow` searches by one population.
 OF_SMC = (*(field.name for field in fields(Smc)), "guide")
 
@@ -137,8 +137,9 @@ def grow(
 ) -> Result:
     """Grow a model into a target, or to a high score of any kind: find the best run of a search, `runs` times.
 
-    The default search is `improve`: it begins with a population of particles, and spends three times as much work on
-    growing parts of the best run again. Its result is no sample of the posterior: for a posterior give a `method`.
+    The default search is `improve`: it begins with a population of particles, and grows parts of the best run again
+    until about a second of a processor is spent and nothing is gained. Its result is no sample of the posterior: for
+    a posterior give a `method`.
 
     Parameters
     ----------
@@ -147,10 +148,11 @@ def grow(
     target
         The volume to fill: a `Target`, or a file. It may be left out if `score` has something to match.
     args, kwargs
-        The model's arguments. `rounds`, `seconds`, `diverse`, `by`, `margin`, `bins` and `guide` are settings of the
-        default search. With any other setting of `smc` (particles, order, power, ...) the search is one population by
-        these settings, with a default `power` of 16 for ratio weights (1 for drawings). With a `guide` and no other
-        setting of the default search it is one population, too, by default of 50 particles with tempered resampling.
+        The model's arguments. `rounds`, `seconds`, `effort`, `diverse`, `by`, `margin`, `bins` and `guide` are settings
+        of the default search. With any other setting of `smc` (particles, order, power, ...) the search is one
+        population by these settings, with a default `power` of 16 for ratio weights (1 for drawings). With a `guide`
+        and no other setting of the default search it is one population, too, by default of 50 particles with tempered
+        resampling.
     score
         Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`. They multiply
         `no_self_intersection(rule)` and, if there is a target, `match_volume(target, voxel, sigma)`. Drawings and

@@ -269,12 +269,10 @@ def _too_little(result: nw.Result) -> str:
 def _summary(result: nw.Result, place: Path, clock: Clock, verbose: bool) -> None:
     if warning := _too_little(result):
         typer.secho(warning, fg="red", err=True)
-    if (
-        verbose
-        and isinstance(result.info, results.info.ImproveInfo)
-        and len({sample.seed for sample in result}) == 1
-    ):
-        print(result.info)
+    if isinstance(result.info, results.info.ImproveInfo) and len({sample.seed for sample in result}) == 1:
+        if verbose:
+            print(result.info)
+        print(f"spent: {result.info.bill}")
     losses = getattr(result.info, "losses", None)
     if losses is not None and losses.causes:
         print(losses.text(result.model.labels))

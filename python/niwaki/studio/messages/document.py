@@ -164,7 +164,7 @@ class Settings(Struct, frozen=True, forbid_unknown_fields=True):
     seed
         The seed; None for a fresh seed each time.
     effort
-        The factor of the usual number of rounds of `improve`.
+        The factor of the usual work of a search, as for `improve`.
     strength
         The choice among the results of a search: 0 for the best, 1 for the most different.
     by

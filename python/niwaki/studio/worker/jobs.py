@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 import niwaki as nw
 from niwaki.lang.compiled import translated
+from niwaki.methods.improve import usual_rounds
 from niwaki.result import Progress, Result, Sample
 from niwaki.result.progress import Watch
 from niwaki.result.search_like import SearchLike
@@ -39,8 +40,6 @@ from niwaki.studio.worker import asks, fitting, models, prior, runs, shapes, var
 from niwaki.studio.worker.places import as_drawn
 from niwaki.studio.worker.thinning import GHOST_TRIANGLES
 
-#: Rounds of `improve` at effort 1: its default.
-ROUNDS = 15
 #: Particles for growing a part again.
 REGROWTH_PARTICLES = 100
 #: The most primitives of a run of the model that is drawn with smooth normals.
@@ -102,7 +101,7 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
     result = nw.grow(
         model.model,
         **goals,
-        rounds=max(1, round(ROUNDS * settings.effort)),
+        **spending(settings.effort),
         diverse=variety.candidates(settings.count, settings.strength) if settings.count > 1 else None,
         by=settings.by,
         seed=job.seed,
@@ -115,6 +114,12 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
     words = [", ".join(f"{name}: {value}" for name, value in kinds[id(sample)]) for sample in result.samples]
     outcomes = [structs.replace(each, kind=text) for each, text in zip(answer.outcomes, words, strict=True)]
     return structs.replace(answer, outcomes=outcomes)
+
+
+def spending(effort: float) -> dict[str, Any]:
+    """Return the settings of a search with an effort: as many rounds, where all searches have a number of rounds."""
+    rounds = usual_rounds()
+    return {"effort": effort} if rounds is None else {"rounds": max(1, round(rounds * effort))}
 
 
 def watching(job: int, run: int, send: Any, check: Callable[[], None]) -> Watch:

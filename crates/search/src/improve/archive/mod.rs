@@ -18,7 +18,7 @@ mod structure;
 
 pub(super) use niche::By;
 
-use super::rounds::{Learnt, Search, best_of};
+use super::rounds::{Learnt, PER_POPULATION, Search, best_of};
 use super::{Improve, Improved, Outputs, part_seed};
 use choose::{ALIKE, Candidate, Rule, choose};
 use look::{Cells, bounds, cells_of, grid};
@@ -47,6 +47,8 @@ use structure::{Kind, Structure, below, steps, traced, turned};
 
 /// The work of the whole search, in that of the search for the single best.
 const TIMES: u64 = 4;
+/// The least work of a first search without a number of rounds, in populations.
+const LEAST: u64 = 4;
 /// The number of short searches that are made side by side.
 const GENERATION: usize = 8;
 /// Most searches of a generation for new niches while there are fewer than results, and after that.
@@ -159,12 +161,15 @@ pub(super) fn search(
     outputs: Outputs<'_>,
     watch: &mut Watch<'_>,
 ) -> Result<(Vec<Run>, Improved), Failure> {
-    let single = Improve { diverse: None, ..improve.clone() };
-    let (mut best, mut info) = single.single(task, seed, 0, outputs, &mut |progress| watch(progress))?;
-    let first: u64 = info.rounds.iter().map(|round| round.work).sum();
-    let slice = info.rounds.first().map_or(1, |round| round.work / 5).max(1);
+    let single = Improve { diverse: None, keeps_all: true, ..improve.clone() };
+    let (best, mut info) = single.single(task, seed, 0, outputs, &mut |progress| watch(progress))?;
+    let population = info.rounds.first().map_or(1, |round| round.work).max(1);
+    let slice = (population / PER_POPULATION).max(1);
+    // A search that ended at once, as nothing could be better, leaves other kinds the work of a few populations.
+    let least = if improve.rounds.is_none() { LEAST * population } else { 0 };
+    let first = info.rounds.iter().map(|round| round.work).sum::<u64>().max(least);
     if info.interrupted {
-        return Ok((vec![best], info));
+        return Ok((best, info));
     }
     // The count of invalid runs is separate, so that the archive is stored with its own count.
     let uncounted = &task.uncounted();
@@ -174,7 +179,7 @@ pub(super) fn search(
     let before = stored.as_ref().map_or(Duration::ZERO, |stored| stored.time);
     let mut archive = match stored {
         Some(stored) => Archive::restored(&single, uncounted, seed, count, stored)?,
-        None => Archive::begin(&single, uncounted, seed, count, best.copy(), watch, &mut info.interrupted)?,
+        None => Archive::begin(&single, uncounted, seed, count, best, watch, &mut info.interrupted)?,
     };
     let spread = spreads(uncounted, seed)?;
     while archive.work < (TIMES - 1) * first && !info.interrupted {
@@ -204,13 +209,13 @@ pub(super) fn search(
 }
 
 impl<'a> Archive<'a> {
-    /// The archive of a first population and of the best run.
+    /// The archive of a first population and of the best runs of the restarts.
     fn begin(
         improve: &'a Improve,
         task: &'a Task,
         seed: u64,
         count: usize,
-        best: Run,
+        best: Vec<Run>,
         watch: &mut Watch<'_>,
         interrupted: &mut bool,
     ) -> Result<Archive<'a>, Failure> {
@@ -222,7 +227,7 @@ impl<'a> Archive<'a> {
             proposal: improve.drawn_by.clone(),
             ..Settings::default()
         };
-        let (mut runs, mut work) = (vec![best], 0);
+        let (mut runs, mut work) = (best, 0);
         match smc(task, &settings, watch) {
             Ok(result) => {
                 work += result.steps;
@@ -433,12 +438,18 @@ impl<'a> Archive<'a> {
             let (niche, hold) = (Some((*key).clone()), niche.entries[0].features.clone());
             jobs.push(Job { number: 0, niche, hold, known: None, learnt: None, least: f64::NEG_INFINITY });
         }
-        // The most promising niches: a search without a gain counts as `margin` nats.
+        // Half of the others go to those of the best niches that had the fewest searches, half to the most promising ones: a search
+        // without a gain counts as `margin` nats.
+        let room = GENERATION.saturating_sub(jobs.len());
+        let mut neglected: Vec<_> = ranked.iter().copied().take(self.count).collect();
+        neglected.sort_by_key(|(_, niche)| niche.searches);
+        neglected.truncate(room / 2);
         let mut promising = ranked;
         let margin = self.improve.margin.unwrap_or(UNLIMITED);
         let promise = |niche: &Niche| niche.entries[0].run.log_score - margin * niche.idle as f64;
         promising.sort_by(|a, b| promise(b.1).total_cmp(&promise(a.1)));
-        for (key, niche) in promising.into_iter().take(GENERATION.saturating_sub(jobs.len())) {
+        promising.retain(|(key, _)| neglected.iter().all(|(other, _)| other != key));
+        for (key, niche) in neglected.into_iter().chain(promising).take(room) {
             let entry = &niche.entries[niche.searches as usize % if few { niche.entries.len() } else { 1 }];
             jobs.push(Job {
                 number: 0,
