@@ -24,7 +24,7 @@ from niwaki.search import named
 #: For each model the choices that tell results apart, and their values.
 MODELS = {
     "chair": {
-        "part[0]/part/discrete_uniform": ("straight", "splayed", "pedestal", "sled"),
+        "part[0]/part/discrete_uniform": ("straight", "pedestal", "sled"),
         "part[1]/part/kind": ("panel", "spindles", "rungs"),
     },
     "village-house": {

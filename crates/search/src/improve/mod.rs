@@ -18,16 +18,20 @@
 //! Several different results are the best of several kinds, from an archive (`archive`).
 
 mod archive;
+mod choose;
 mod course;
+mod look;
+mod niche;
 mod price;
 mod rounds;
 mod start;
 mod stored;
+mod structure;
 
 pub use rounds::{Kind, Round};
 
-use archive::By;
 use course::Course;
+use niche::By;
 use niwaki_chain::form::Form;
 use niwaki_math::RngCore;
 use niwaki_particles::{Progress, Watch};
@@ -155,9 +159,6 @@ impl Improve {
             }),
             Some(count) => archive::search(&improve, task, seed, count, outputs, watch),
         }
-    }
-
-    /// Makes a single search, which is a part of the checkpoint. Returns the best runs of its restarts, best first.
     }
 
     /// Makes a single search, which is a part of the checkpoint. Returns the best runs of its restarts, best first.

@@ -11,18 +11,12 @@
 //! A generation is planned from the archive alone, and its searches are counted, so the bits do not depend on threads. The archive is
 //! stored between two generations.
 
-mod choose;
-mod look;
-mod niche;
-mod structure;
-
-pub(super) use niche::By;
-
+use super::choose::{ALIKE, Candidate, Rule, choose};
+use super::look::{Cells, bounds, cells_of, grid};
+use super::niche::Niches;
 use super::rounds::{Learnt, PER_POPULATION, Search, best_of};
+use super::structure::{Kind, Structure, below, steps, traced, turned};
 use super::{Improve, Improved, Outputs, part_seed};
-use choose::{ALIKE, Candidate, Rule, choose};
-use look::{Cells, bounds, cells_of, grid};
-use niche::Niches;
 use niwaki_chain::walk::state::State;
 use niwaki_chain::walk::streams::Streams;
 use niwaki_geom::sketch::product::Sketches;
@@ -41,9 +35,8 @@ use niwaki_run::{Failure, Task};
 use niwaki_vm::machine::invalid::Counts;
 use niwaki_vm::value::Value;
 use serde::{Deserialize, Serialize};
-use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::time::{Duration, Instant};
-use structure::{Kind, Structure, below, steps, traced, turned};
 
 /// The work of the whole search, in that of the search for the single best.
 const TIMES: u64 = 4;
@@ -54,6 +47,8 @@ const GENERATION: usize = 8;
 /// Most searches of a generation for new niches while there are fewer than results, and after that.
 const NEW_FIRST: usize = 6;
 const NEW_LATER: usize = 4;
+/// Most searches for a niche that found no possible run; fewer than there are forms of populations.
+const TRIES: u32 = 3;
 /// Most turns that are tried for each search for a new niche.
 const TURNS: usize = 8;
 /// The number of rounds of a short search.
@@ -106,7 +101,7 @@ struct Stored<R> {
     rules: Niches,
     bounds: Option<[[u64; 3]; 2]>,
     niches: Vec<StoredNiche<R>>,
-    tried: BTreeSet<String>,
+    tried: BTreeMap<String, u32>,
     searches: u64,
     work: u64,
     time: Duration,
@@ -124,6 +119,8 @@ struct Job {
     /// The values of other choices; `None` to start from a population.
     known: Option<HashMap<u128, Value>>,
     learnt: Option<Learnt>,
+    /// The number of the form of its population; each further search for a niche takes another one.
+    form: usize,
     /// The score below which the known values are no place to begin, nats: half of what a good run had is lost.
     least: f64,
 }
@@ -143,8 +140,8 @@ struct Archive<'a> {
     bounds: Option<Aabb>,
     grid: Option<Grid>,
     niches: BTreeMap<Kind, Niche>,
-    /// The niches for which a search was made, as text.
-    tried: BTreeSet<String>,
+    /// The number of searches that were made for a new niche, by its text.
+    tried: BTreeMap<String, u32>,
     searches: u64,
     work: u64,
 }
@@ -277,7 +274,7 @@ impl<'a> Archive<'a> {
             bounds,
             grid,
             niches: BTreeMap::new(),
-            tried: BTreeSet::new(),
+            tried: BTreeMap::new(),
             searches: 0,
             work,
         };
@@ -426,17 +423,26 @@ impl<'a> Archive<'a> {
             work += steps;
             let Some((job, key)) = turn else { continue };
             let name = format!("{key:?}");
-            if self.niches.contains_key(&key) || self.tried.contains(&name) || tried.contains(&name) {
+            if self.niches.contains_key(&key) || tried.contains(&name) || self.tries(&name) >= TRIES {
                 continue;
             }
+            let form = self.tries(&name) as usize;
             tried.push(name);
-            jobs.push(job);
+            jobs.push(Job { form, ..job });
         }
         // Where no turn brings a new niche, second runs of the best niches.
         for at in 0..wanted.saturating_sub(jobs.len()) {
             let Some((key, niche)) = ranked.get(at % ranked.len().max(1)).filter(|_| few) else { break };
             let (niche, hold) = (Some((*key).clone()), niche.entries[0].features.clone());
-            jobs.push(Job { number: 0, niche, hold, known: None, learnt: None, least: f64::NEG_INFINITY });
+            jobs.push(Job {
+                number: 0,
+                niche,
+                hold,
+                known: None,
+                learnt: None,
+                least: f64::NEG_INFINITY,
+                form: 0,
+            });
         }
         // Half of the others go to those of the best niches that had the fewest searches, half to the most promising ones: a search
         // without a gain counts as `margin` nats.
@@ -458,18 +464,26 @@ impl<'a> Archive<'a> {
                 known: Some(known_of(&entry.run)),
                 learnt: entry.learnt.clone(),
                 least: f64::NEG_INFINITY,
+                form: 0,
             });
         }
         for job in &mut jobs {
             job.number = self.searches;
             self.searches += 1;
         }
-        if self.tried.len() < MOST {
-            self.tried.extend(tried);
+        for name in tried {
+            if self.tried.len() < MOST || self.tried.contains_key(&name) {
+                *self.tried.entry(name).or_default() += 1;
+            }
         }
         // Work is counted even where a plan has no search, so that every search ends.
         self.work += work.max(1);
         Ok(jobs)
+    }
+
+    /// The number of searches for a new niche.
+    fn tries(&self, name: &str) -> u32 {
+        self.tried.get(name).copied().unwrap_or(0)
     }
 
     /// A search in the niche of a good run with one choice turned, and that niche; `None` if the run has no such choice, or
@@ -497,7 +511,7 @@ impl<'a> Archive<'a> {
         let hold = self.entry(Run::default(), &trace, None).features;
         let empty = Sketches::start(&self.task.sketches).total().value();
         let least = 0.5 * (entry.run.log_score + empty);
-        let job = Job { number: 0, niche: None, hold, known: Some(rest), learnt: None, least };
+        let job = Job { number: 0, niche: None, hold, known: Some(rest), learnt: None, least, form: 0 };
         Ok((Some((job, self.rules.niche(&trace))), work))
     }
 
@@ -600,9 +614,10 @@ fn run(
         Some(turned) if turned.0.log_score >= job.least => turned,
         turned => {
             let particles = (FRESH * improve.particles as f64).ceil() as usize;
-            let (power, proposal) = (improve.power, improve.drawn_by.clone());
-            let settings = Settings { particles, seed, power, proposal, ..Settings::default() };
-            match smc(&held, &settings, &mut |progress| watch(progress)) {
+            let (fewer, mut attempts) = (Improve { particles, ..improve.clone() }, vec![]);
+            match fewer
+                .start(&held, seed, job.form, &mut attempts, &mut |progress| watch(progress), &|| false)
+            {
                 Ok(result) => {
                     work += result.steps;
                     if result.interrupted {
