@@ -76,7 +76,9 @@ def numbers():
 
 def seat():
     """A target that is a bit of every chair."""
-    return solid("seat", [block((-1.0, 0.0, -1.0), (1.0, 1.3, 1.0)), block((-1.0, 1.3, -1.0), (1.0, 3.0, -0.8))])
+    return solid(
+        "seat", [block((-1.0, 0.0, -1.0), (1.0, 1.3, 1.0)), block((-1.0, 1.3, -1.0), (1.0, 3.0, -0.8))]
+    )
 
 
 def chairs(seed: int = 1, **settings):
