@@ -8,6 +8,8 @@
     TIMES=4 make bench-searches                          # four times the CPU seconds; the default takes what it takes
     AGAINST=1a2b3c make bench-searches                   # beside what an older version left (hash or commit)
     PAIR="chain,default" make bench-searches             # two methods, problem by problem
+    SET=commit SEEDS=100 PARTS=10 PART=3 ...             # the third tenth of 100 seeds drawn from the commit's hash
+    BEFORE_AND_AFTER=1 make bench-searches               # the default and fifteen rounds, without the other methods
 
 A user's search, `niwaki.grow(model, target)`, and other methods with as many CPU seconds: `searches/methods.py`. Two
 worker processes with one thread each: searches run with `threads=1`, and the libraries of matrices are limited by
@@ -36,7 +38,7 @@ from searches.methods import METHODS, Method
 from searches.problems import PROBLEMS, Problem
 from searches.records import Records, commit, version
 from searches.searching import searched, sized
-from searches.seeds import FULL, MOST, QUICK, SETS
+from searches.seeds import COMMIT, FULL, MOST, MOST_OF_COMMIT, QUICK, SETS, drawn
 
 WORKERS = 2
 
@@ -123,21 +125,26 @@ def main() -> int:
     """Measure what is missing, write the tables and the pictures."""
     started = time.monotonic()
     problems, methods = chosen(PROBLEMS, "PROBLEMS"), chosen(METHODS, "METHODS")
+    if os.environ.get("BEFORE_AND_AFTER"):
+        methods = [entry for entry in METHODS if not entry.size]
     if os.environ.get("QUICK") and not os.environ.get("PROBLEMS"):
         problems = [entry for entry in problems if not entry.is_costly]
     count = int(os.environ.get("SEEDS") or (QUICK if os.environ.get("QUICK") else FULL))
     name = os.environ.get("SET") or "tuning"
-    if name not in SETS or not 0 < count <= MOST:
-        raise SystemExit(f"SET is one of {', '.join(SETS)}, SEEDS between 1 and {MOST}")
-    seeds = SETS[name][:count]
+    most = MOST_OF_COMMIT if name == COMMIT else MOST
+    if name not in (*SETS, COMMIT) or not 0 < count <= most:
+        raise SystemExit(f"SET is one of {', '.join((*SETS, COMMIT))}, SEEDS between 1 and {most}")
+    seeds = drawn(os.environ.get("COMMIT") or commit(), count) if name == COMMIT else SETS[name][:count]
+    parts, part = (int(os.environ.get(variable) or 0) for variable in ("PARTS", "PART"))
+    to_do = [seed for place, seed in enumerate(seeds) if not part or place % parts == part - 1]
     folder = Path(os.environ.get("OUT") or "out/searches")
     records = Records(folder / "records.jsonl")
     times = float(os.environ.get("TIMES") or 1.0)
-    done = measure(records, problems, methods, seeds, times)
+    done = measure(records, problems, methods, to_do, times)
     say("")
     rows = [row for row in records.searches(times=times) if row["seed"] in seeds]
     names = [how.name for how in methods]
-    parts = [
+    lines = [
         f"Version {version()}, commit {commit()}, {name} seeds, {len(seeds)} searches of each, "
         f"{times:g} times the default's CPU.",
         *table.defaults(rows),
@@ -146,15 +153,18 @@ def main() -> int:
         "",
         *table.against(rows, [entry for entry in names if entry != "default"], rows, "default"),
     ]
-    if pair := [entry.strip() for entry in os.environ.get("PAIR", "").split(",") if entry.strip()]:
-        parts += ["", *table.by_problem(rows, pair[0], rows, pair[-1])]
+    pair = [entry.strip() for entry in os.environ.get("PAIR", "").split(",") if entry.strip()]
+    if not pair and os.environ.get("BEFORE_AND_AFTER"):
+        pair = [entry.name for entry in methods]
+    if pair:
+        lines += ["", *table.by_problem(rows, pair[0], rows, pair[-1])]
     if before := os.environ.get("AGAINST"):
         older = records.searches(before, times)
-        parts += ["", *table.against(rows, names, older)]
+        lines += ["", *table.against(rows, names, older)]
         for entry in names:
-            parts += ["", *table.by_problem(rows, entry, older, entry)]
-    (folder / "tables.md").write_text("\n".join(parts) + "\n")
-    print("\n".join(parts))
+            lines += ["", *table.by_problem(rows, entry, older, entry)]
+    (folder / "tables.md").write_text("\n".join(lines) + "\n")
+    print("\n".join(lines))
     if os.environ.get("PICTURES") != "0":
         for entry in problems:
             print(sheets.drawn(entry, rows, folder))

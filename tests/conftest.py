@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -13,6 +14,10 @@ from niwaki.errors import NiwakiError
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     # A shell's background jobs ignore Ctrl-C, and tests that press it would wait for ever.
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+# Tests are about what is around a search, and searches are short, also in processes that tests start.
+os.environ.setdefault("NIWAKI_ROUNDS", "15")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -1,7 +1,8 @@
 """The methods: each is one line, the settings of `niwaki.grow` for a size that makes it cost as much as another.
 
-`default` has no size: it is what a user gets. Every other method is given the CPU seconds of the default, on the
-problem at hand, by its size: a number of particles, of proposals or of sweeps.
+`default` has no size: it is what a user gets. `fifteen rounds` has none, either: it is the default at the work that it
+had before searches spent a floor of work. Every other method is given the CPU seconds of the default, on the problem at
+hand, by its size: a number of particles, of proposals or of sweeps.
 """
 
 from __future__ import annotations
@@ -50,6 +51,7 @@ class Method:
 
 METHODS = (
     Method("default", lambda _: {}),
+    Method("fifteen rounds", lambda _: {"rounds": 15}),
     Method("one population", lambda n: {"particles": n}, 300),
     Method("absolute weights", lambda n: {"particles": n, "weights": "absolute"}, 300),
     Method("depth-first", lambda n: {"particles": n, "order": "depth-first"}, 300),

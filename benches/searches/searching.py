@@ -77,6 +77,9 @@ def searched(job: Job) -> dict[str, Any]:
         "score": best.log_score,
         "shares": case.measure(best.scene),
         "primitives": best.primitives,
+        "spent": sum(getattr(result.info, "spent", {}).values()),
+        "rounds": max(len(getattr(result.info, "rounds", ())) - 1, 0),
+        "restarts": getattr(result.info, "restarts", 0),
     }
 
 

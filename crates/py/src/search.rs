@@ -505,6 +505,8 @@ impl PyTask {
                 dict.set_item("searches", result.searches)?;
                 dict.set_item("kinds", PyTuple::new(py, result.kinds)?)?;
                 dict.set_item("niches", result.niches)?;
+                dict.set_item("other_work", result.other_work)?;
+                dict.set_item("price", result.price)?;
                 dict.set_item("losses", faults::losses(py, &result.lost, &self.task.program)?)?;
             }
             Info::Chain(result) => {

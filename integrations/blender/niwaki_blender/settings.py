@@ -96,7 +96,7 @@ class Settings(bpy.types.PropertyGroup):
     count: IntProperty(name="Results", description="Number of results that differ", default=1, min=1, max=48)
     effort: FloatProperty(
         name="Effort",
-        description="Factor of the usual number of search rounds",
+        description="Factor of the usual work of a search",
         default=1.0,
         min=0.1,
         max=64.0,

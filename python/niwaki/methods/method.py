@@ -103,7 +103,7 @@ class Method:
             elif isinstance(value, list):
                 settings[name] = tuple(value)
         try:
-            return kind(**settings)
+            return kind(**kind._of_older(settings))
         except TypeError as error:
             raise InputError(
                 "bad-setting",
@@ -112,6 +112,11 @@ class Method:
                 expected=f"the settings {', '.join(field.name for field in fields(kind))}",
                 suggestion="these settings only",
             ) from None
+
+    @classmethod
+    def _of_older(cls, settings: dict[str, Any]) -> dict[str, Any]:
+        """Return settings with those that an older version had without naming them."""
+        return settings
 
     def _set(self, name: str, value: Any) -> None:
         """Set a field to a converted value: a real for a whole number, a tuple for a list."""

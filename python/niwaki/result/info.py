@@ -15,6 +15,7 @@ from niwaki.errors.settings import bad
 from niwaki.lang.blame import Blame
 from niwaki.lang.labels import Labels
 from niwaki.result.diagnostics import Summaries
+from niwaki.shares import percent
 
 S = TypeVar("S")
 
@@ -301,7 +302,7 @@ class Round(NamedTuple):
     Attributes
     ----------
     kind : str
-        The kind of step: "population", "regrow", "regrow more" or "move".
+        The kind of step: "population", "restart", "regrow", "regrow more" or "move".
     work : int
         The number of particle-steps, of proposals, and of shapes that proposals placed or removed.
     best : float
@@ -361,6 +362,10 @@ class ImproveInfo(Info):
         numbers of iterations; a place that ends in "/" is that of a call, and its value the number of calls.
     niches : int
         The number of kinds that the search for several results has met and keeps.
+    other_work : int
+        The work of its searches for other kinds, in the unit of the work of rounds.
+    price : int
+        The instructions of a processor for a unit of work, estimated from the best run of the first population.
     losses : Losses
         The particles that became impossible in the population that lived.
     seconds : tuple of float
@@ -372,6 +377,8 @@ class ImproveInfo(Info):
     searches: int = 1
     kinds: tuple[dict[str, str], ...] = ()
     niches: int = 0
+    other_work: int = 0
+    price: int = 0
     losses: Losses = Losses()  # noqa: RUF009
     seconds: tuple[float, ...] = field(default=(), compare=False)
 
@@ -381,6 +388,29 @@ class ImproveInfo(Info):
         object.__setattr__(self, "attempts", tuple(Attempt(*fields) for fields in self.attempts))
         object.__setattr__(self, "rounds", tuple(Round(*fields) for fields in self.rounds))
         object.__setattr__(self, "kinds", tuple(dict(kind) for kind in self.kinds))
+
+    @property
+    def spent(self) -> dict[str, int]:
+        """The work by kind of step, in instructions of a processor as `price` estimates them; the largest first."""
+        work: dict[str, int] = {}
+        for step in self.rounds:
+            work[step.kind] = work.get(step.kind, 0) + step.work * self.price
+        return dict(sorted(work.items(), key=lambda item: -item[1]))
+
+    @property
+    def bill(self) -> str:
+        """The work in one line: instructions, rounds, restarts, and the share of each kind of step."""
+        spent, rounds = self.spent, len(self.rounds) - 1
+        whole = sum(spent.values())
+        counts = [f"{rounds} round{'' if rounds == 1 else 's'}"]
+        counts += [f"{self.restarts} restart{'' if self.restarts == 1 else 's'}"] * (self.restarts > 0)
+        shares = ", ".join(f"{kind} {percent(work / max(whole, 1))}" for kind, work in spent.items())
+        return f"about {whole / 1e6:,.0f} million instructions in {' and '.join(counts)}: {shares}"
+
+    @property
+    def restarts(self) -> int:
+        """The number of fresh populations from which the search went on."""
+        return sum(step.kind == "restart" for step in self.rounds)
 
     def __str__(self) -> str:
         """The steps of the search, with the seconds and the best log score after them."""
@@ -400,6 +430,7 @@ class ImproveInfo(Info):
             )
             kinds = [f"{parts} part{'' if parts == 1 else 's'} grown again"]
             kinds += [f"{more} more population{'' if more == 1 else 's'}"] * (more > 0)
+            kinds += [f"{self.restarts} restart{'' if self.restarts == 1 else 's'}"] * (self.restarts > 0)
             kinds += ["single choices moved"] * moves
             steps.append(", ".join(kinds) + self._at(-1))
         return "; ".join(steps)

@@ -1,6 +1,5 @@
 from .archives import Archive as Archive
 from .archives import archive as archive
-from .kinds import named as named
 from .checkpoint import Checkpoint as Checkpoint
 from .checks import fresh as fresh
 from .drag import Drag as Drag
@@ -17,6 +16,7 @@ from .entry import grow as grow
 from .entry import grow_search as grow_search
 from .entry import run as run
 from .keeper import Stage as Stage
+from .kinds import named as named
 from .request import Search as Search
 from .space import Parameter as Parameter
 from .space import Space as Space

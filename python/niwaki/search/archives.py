@@ -20,6 +20,7 @@ from niwaki.errors.settings import count
 from niwaki.lang.models import Model
 from niwaki.methods import Improve, Method
 from niwaki.result import Result, Sample
+from niwaki.result.info import ImproveInfo
 from niwaki.search.entry import grow
 from niwaki.search.kinds import TOO_FEW, named
 from niwaki.search.warnings import SearchWarning
@@ -131,7 +132,7 @@ def archive(
     by
         What tells kinds apart, as for `improve`.
     method
-        `improve(...)` with the settings of the search; its `diverse`, `by` and `within` are those of the archive.
+        `improve(...)` with the settings of the search; its `diverse`, `by` and `margin` are those of the archive.
     settings
         Further arguments of `grow`.
 
@@ -150,9 +151,21 @@ def archive(
             suggestion="`improve(...)`",
         )
     if method is None:
-        own = {name: settings.pop(name) for name in ("rounds", "bins", "guide") if name in settings}
+        own = {name: settings.pop(name) for name in ("rounds", "effort", "bins", "guide") if name in settings}
         method = Improve(**own)
-    method = replace(method, diverse=kinds, by=by, within=None)
+    method = replace(method, diverse=kinds, by=by if isinstance(by, str) else tuple(by), margin=None)
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", TOO_FEW, SearchWarning)
-        return Archive(grow(model, *args, method=method, **settings))
+        result = grow(model, *args, method=method, **settings)
+    return Archive(_of_each_kind(result))
+
+
+def _of_each_kind(result: Result) -> Result:
+    """Keep the best sample of each kind."""
+    info = result.info
+    if isinstance(info, ImproveInfo) and len(info.kinds) == len(result):
+        first = {tuple(kind.items()): place for place, kind in reversed([*enumerate(info.kinds)])}
+        places = sorted(first.values())
+        result.samples = [result.samples[place] for place in places]
+        result.info = replace(info, kinds=tuple(info.kinds[place] for place in places))
+    return result

@@ -92,7 +92,7 @@ def run_once(
     diverse = getattr(search.method, "diverse", None)
     if isinstance(info, ImproveInfo):
         check_number(info, len(runs), diverse, interrupted)
-    elif diverse is not None:
+    elif isinstance(info, PopulationInfo) and diverse is not None:
         runs = distinct(runs, diverse, info)
     seconds = clock.read()
     if stage is not None:

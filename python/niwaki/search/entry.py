@@ -29,7 +29,7 @@ from niwaki.targets.sketches import FREE, Score, match_volume, no_self_intersect
 from niwaki.targets.target import Target
 
 #: The settings of `improve`, the default search of `grow`.
-OF_IMPROVE = ("rounds", "seconds", "diverse", "by", "within", "bins", "guide")
+OF_IMPROVE = ("rounds", "seconds", "effort", "diverse", "by", "margin", "bins", "guide")
 #: The settings of `emulate`.
 OF_EMULATE = ("evaluations", "diverse")
 #: The engines of `grow`.
@@ -143,10 +143,10 @@ def grow(
 ) -> Result:
     """Grow a model into a target, or to a high score of any kind: find the best run of a search, `runs` times.
 
-    The default search is `improve`: it begins with a population of particles, and spends three times as much work on
-    growing parts of the best run again. A model whose choices all come before its scene, or which calls a host function
-    before every part, is searched by `emulate`, an emulator of its scenes. Neither result is a sample of the posterior:
-    for a posterior give a `method`.
+    The default search is `improve`: it begins with a population of particles, and grows parts of the best run again
+    until about a second of a processor is spent and nothing is gained. A model whose choices all come before its scene,
+    or which calls a host function before every part, is searched by `emulate`, an emulator of its scenes. Neither
+    result is a sample of the posterior: for a posterior give a `method`.
 
     Parameters
     ----------
@@ -155,10 +155,11 @@ def grow(
     target
         The volume to fill: a `Target`, or a file. It may be left out if `score` has something to match.
     args, kwargs
-        The model's arguments. `rounds`, `seconds`, `diverse`, `by`, `within`, `bins` and `guide` are settings of the
-        default search. With any other setting of `smc` (particles, order, power, ...) the search is one population by
-        these settings, with a default `power` of 16 for ratio weights (1 for drawings). With a `guide` and no other
-        setting of the default search it is one population, too, by default of 50 particles with tempered resampling.
+        The model's arguments. `rounds`, `seconds`, `effort`, `diverse`, `by`, `margin`, `bins` and `guide` are settings
+        of the default search. With any other setting of `smc` (particles, order, power, ...) the search is one
+        population by these settings, with a default `power` of 16 for ratio weights (1 for drawings). With a `guide`
+        and no other setting of the default search it is one population, too, by default of 50 particles with tempered
+        resampling.
     score
         Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`. They multiply
         `no_self_intersection(rule)` and, if there is a target, `match_volume(target, voxel, sigma)`. Drawings and

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from niwaki.errors import InputError, ModelFault
@@ -27,16 +28,25 @@ def named(result: Result) -> list[list[tuple[str, str]]]:
         return [[] for _ in result]
     labels, by = result.model.labels, getattr(result.method, "by", "kind")
     is_query = isinstance(by, str) and by not in ("kind", "look")
-    # What all kinds have in common tells nothing apart.
-    shared = set.intersection(*(set(kind.items()) for kind in info.kinds)) if len(info.kinds) > 1 else set()
+    # Numbers of calls that follow from the choices, and what all kinds have in common, tell nothing apart.
+    chosen = [
+        {place: value for place, value in kind.items() if not place.endswith("/")} for kind in info.kinds
+    ]
+    kinds = chosen if _number(chosen) == _number(info.kinds) else info.kinds
+    shared = set.intersection(*(set(kind.items()) for kind in kinds)) if len(kinds) > 1 else set()
     return [
         [
             (place if is_query else labels.place(place), value)
             for place, value in kind.items()
             if (place, value) not in shared
         ]
-        for kind in info.kinds
+        for kind in kinds
     ]
+
+
+def _number(kinds: Sequence[Mapping[str, str]]) -> int:
+    """The number of different kinds."""
+    return len({tuple(kind.items()) for kind in kinds})
 
 
 def with_addresses(search: SearchLike) -> Method:

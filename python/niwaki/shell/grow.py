@@ -325,12 +325,12 @@ def _sizes(result: nw.Result) -> str:
 def _summary(result: nw.Result, place: Path, clock: Clock, verbose: bool) -> None:
     if warning := _too_little(result):
         typer.secho(warning, fg="red", err=True)
-    if (
-        verbose
-        and isinstance(result.info, results.info.ImproveInfo | results.info.EmulateInfo)
-        and len({sample.seed for sample in result}) == 1
-    ):
-        print(result.info)
+    info, seeds = result.info, {sample.seed for sample in result}
+    if isinstance(info, results.info.ImproveInfo | results.info.EmulateInfo) and len(seeds) == 1:
+        if verbose:
+            print(info)
+        if isinstance(info, results.info.ImproveInfo):
+            print(f"spent: {info.bill}")
     losses = getattr(result.info, "losses", None)
     if losses is not None and losses.causes:
         print(losses.text(result.model.labels))

@@ -75,6 +75,7 @@ def written(result: Result, reference: ModelReference) -> dict[str, Any]:
         "hash": result.search.hash,
         "plan": list(getattr(result.info, "plan", ())),
         "rounds": max(len(getattr(result.info, "rounds", ())) - 1, 0),
+        "spent": getattr(result.info, "spent", {}),
         "interrupted": result.interrupted,
         "best": result.samples.index(result.best),
         "shown": result.samples.index(result.best),

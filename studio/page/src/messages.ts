@@ -88,6 +88,7 @@ export interface SettingsChange {
   seed?: number | null;
   effort?: number;
   strength?: number;
+  by?: "kind" | "look";
 }
 
 /** Set arguments by name, or settings; other values stay. */
@@ -343,6 +344,7 @@ export interface Settings {
   seed?: number | null;
   effort?: number;
   strength?: number;
+  by?: "kind" | "look";
 }
 
 /** A result in the gallery: its key and its numbers; scores in nats. */
@@ -357,6 +359,7 @@ export interface Outcome {
   covered: number | null;
   outside: number | null;
   note: string;
+  kind: string;
   fit: string;
   unmet: string[];
 }

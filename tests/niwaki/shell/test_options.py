@@ -106,7 +106,7 @@ FLAGS = {
     ),
     "--diverse": ("--diverse", "N", "The number of results that differ"),
     "--by": ("--by", "kind|look|CHOICES|QUERY", "What tells results apart."),
-    "--within": ("--within", "NUMBER", "The nats below the best within which"),
+    "--margin": ("--margin", "NUMBER", "The nats below the best within which"),
     "--bins": ("--bins", "N", "The number of bins of a real choice or query"),
     "--order": ("--order", "NAME", '"stochastic"'),
     "--weights": ("--weights", "NAME", '"ratio"'),

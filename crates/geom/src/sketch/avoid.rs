@@ -33,6 +33,10 @@ impl SketchSpec for Avoid {
     fn name(&self) -> &'static str {
         "avoid"
     }
+
+    fn most(&self) -> f64 {
+        0.0
+    }
 }
 
 /// The count of primitives that fill a cell of the obstacle.

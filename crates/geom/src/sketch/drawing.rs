@@ -156,6 +156,10 @@ impl SketchSpec for DrawingMatch {
         "match_drawing"
     }
 
+    fn most(&self) -> f64 {
+        log_normal(1.0, 1.0, self.sigma)
+    }
+
     fn window(&self) -> Option<WindowForm> {
         Some(WindowForm::flat(self.drawing.page.side()))
     }

@@ -34,6 +34,10 @@ impl SketchSpec for Floor {
     fn name(&self) -> &'static str {
         "floor"
     }
+
+    fn most(&self) -> f64 {
+        0.0
+    }
 }
 
 /// The count of shapes below the floor.

@@ -26,6 +26,10 @@ impl SketchSpec for NoSelfIntersection {
     fn name(&self) -> &'static str {
         "no_self_intersection"
     }
+
+    fn most(&self) -> f64 {
+        0.0
+    }
 }
 
 /// The primitives so far, and the count of pairs that intersect.

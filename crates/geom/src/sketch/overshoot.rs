@@ -34,6 +34,10 @@ impl SketchSpec for Overshoot {
     fn name(&self) -> &'static str {
         "overshoot"
     }
+
+    fn most(&self) -> f64 {
+        log_normal(0.0, 0.0, self.sigma)
+    }
 }
 
 /// The box around the scene so far.

@@ -205,6 +205,10 @@ impl SketchSpec for PictureMatch {
         self.name
     }
 
+    fn most(&self) -> f64 {
+        log_normal(1.0, 1.0, self.sigma)
+    }
+
     fn window(&self) -> Option<WindowForm> {
         let is_visible = !self.picture.rays.is_empty();
         is_visible.then(|| WindowForm::flat(self.picture.plate().side()))

@@ -49,6 +49,10 @@ pub trait SketchSpec: Copied + Send + Sync {
     fn domain(&self) -> Option<Aabb> {
         None
     }
+    /// The log score of a scene that fits in everything, nats: no scene has a higher one. Infinite where none is known.
+    fn most(&self) -> f64 {
+        f64::INFINITY
+    }
     /// A copy.
     fn start(&self) -> Box<dyn Sketch> {
         self.fork()

@@ -68,6 +68,10 @@ impl SketchSpec for VolumeMatch {
         "match_volume"
     }
 
+    fn most(&self) -> f64 {
+        log_normal(1.0, 1.0, self.sigma) + log_normal(0.0, 0.0, self.sigma)
+    }
+
     fn window(&self) -> Option<WindowForm> {
         let [x, y, z] = self.target.grid().domain().extent().to_array();
         Some(WindowForm::solid(x.max(y).max(z)))

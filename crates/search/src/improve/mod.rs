@@ -5,23 +5,33 @@
 //! 2. *Rounds* (`rounds`) of a fifth of that unit. Each makes steps of one kind from the best run, and the kinds share the
 //!    rounds by their latest gains. The kinds are: parts grown again by few or by many particles, moves of single choices, and a
 //!    new population.
-//! 3. *End* after the given number of rounds, when the time is over, or when no round has gained for long.
+//! 3. *Restarts* (`course`): where no round has gained for long, the next begins from a fresh population. The best of all is kept.
+//! 4. *End* after the given number of rounds; or when the time is over; or, without both, when the search has spent a floor of work
+//!    and no round has gained for long. A search also ends where nothing can be better.
 //!
-//! Work is counted, not timed: particle-steps of populations and of parts, proposals, and shapes that proposals place or remove.
-//! So a search with a number of rounds has equal bits on any machine; a search with a time limit reports the number of its rounds.
+//! Work is counted, not timed: particle-steps of populations and of parts, proposals, and shapes that proposals place or remove, each
+//! at a price in instructions (`price`). So a search has equal bits on any machine; a search with a time limit reports the number of
+//! its rounds, which repeats it.
 //!
 //! A search is stored between two rounds (`stored`); if it is killed earlier, its first population starts again.
 //!
 //! Several different results are the best of several kinds, from an archive (`archive`).
 
 mod archive;
+mod choose;
+mod course;
+mod look;
+mod niche;
+mod price;
 mod rounds;
 mod start;
 mod stored;
+mod structure;
 
 pub use rounds::{Kind, Round};
 
-use archive::By;
+use course::Course;
+use niche::By;
 use niwaki_chain::form::Form;
 use niwaki_math::RngCore;
 use niwaki_particles::{Progress, Watch};
@@ -33,19 +43,12 @@ use niwaki_run::run::{Run, Shown};
 use niwaki_run::setting::{COUNT, FROM_ZERO, POSITIVE, Range, Ranges, whole};
 use niwaki_run::streams::Reserved;
 use niwaki_run::{Failure, Task};
-use rounds::Search;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use stored::Stored;
 
-/// Number of rounds without a limit of rounds or time.
-const USUAL_ROUNDS: u64 = 15;
-/// Least gain that counts, nats.
-const LEAST_GAIN: f64 = 0.01;
-/// Number of rounds without a gain after which a search ends; after half of all rounds, if that is more.
-const PATIENCE: u64 = 20;
 /// The settings.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -56,10 +59,12 @@ pub struct Improve {
     regrow: usize,
     /// The power of the score.
     power: f64,
-    /// Most rounds.
+    /// The number of rounds.
     rounds: Option<u64>,
     /// Most seconds.
     seconds: Option<f64>,
+    /// A factor of the floor of work of a search without a limit of rounds or time.
+    effort: f64,
     /// The number of different results.
     diverse: Option<usize>,
     /// The rule by which they differ.
@@ -67,7 +72,7 @@ pub struct Improve {
     by: By,
     /// Most nats below the best for a result of another kind to come before a second one of a kind.
     #[serde(default)]
-    within: Option<f64>,
+    margin: Option<f64>,
     /// The number of bins of a real value.
     #[serde(default = "usual_bins")]
     bins: usize,
@@ -76,6 +81,9 @@ pub struct Improve {
     /// The proposal that draws choices in place of the prior.
     #[serde(skip)]
     drawn_by: Option<Arc<Proposal>>,
+    /// Whether the best runs of all restarts are kept, and not only the best of all.
+    #[serde(skip)]
+    keeps_all: bool,
 }
 
 /// The outputs of a search while it runs.
@@ -100,6 +108,10 @@ pub struct Improved {
     pub kinds: Vec<BTreeMap<String, String>>,
     /// The number of kinds in the archive of a search for several results.
     pub niches: usize,
+    /// The work of the searches for other kinds.
+    pub other_work: u64,
+    /// The price of a unit of work, in instructions of a processor.
+    pub price: u64,
     /// Whether the search was stopped.
     pub interrupted: bool,
     /// Particles of the first surviving population that became impossible.
@@ -114,8 +126,9 @@ impl Improve {
         ("power", POSITIVE),
         ("rounds", Range::Optional(&COUNT)),
         ("seconds", Range::Optional(&POSITIVE)),
+        ("effort", FROM_ZERO),
         ("diverse", Range::Optional(&COUNT)),
-        ("within", Range::Optional(&FROM_ZERO)),
+        ("margin", Range::Optional(&FROM_ZERO)),
         ("bins", COUNT),
     ];
 
@@ -140,12 +153,15 @@ impl Improve {
     ) -> Result<(Vec<Run>, Improved), Failure> {
         let improve = Improve { drawn_by: proposal, ..self.clone() };
         match improve.diverse {
-            None => improve.single(task, seed, 0, outputs, watch).map(|(best, info)| (vec![best], info)),
+            None => improve.single(task, seed, 0, outputs, watch).map(|(mut runs, info)| {
+                runs.truncate(1);
+                (runs, info)
+            }),
             Some(count) => archive::search(&improve, task, seed, count, outputs, watch),
         }
     }
 
-    /// Makes a single search, which is a part of the checkpoint.
+    /// Makes a single search, which is a part of the checkpoint. Returns the best runs of its restarts, best first.
     fn single(
         &self,
         task: &Task,
@@ -153,7 +169,7 @@ impl Improve {
         part: u64,
         outputs: Outputs<'_>,
         watch: &mut dyn FnMut(Progress) -> bool,
-    ) -> Result<(Run, Improved), Failure> {
+    ) -> Result<(Vec<Run>, Improved), Failure> {
         // The count of invalid runs is separate, so that a part is stored with its own count.
         let uncounted = task.uncounted();
         let result = self.rounds_of(&uncounted, seed, part, outputs, watch);
@@ -168,54 +184,68 @@ impl Improve {
         part: u64,
         outputs: Outputs<'_>,
         watch: &mut dyn FnMut(Progress) -> bool,
-    ) -> Result<(Run, Improved), Failure> {
+    ) -> Result<(Vec<Run>, Improved), Failure> {
         let began = Instant::now();
         let stored: Option<Stored<Run>> =
             outputs.checkpoint.map_or(Ok(None), |checkpoint| checkpoint.left(part))?;
         let before = stored.as_ref().map_or(Duration::ZERO, |stored| stored.time);
         let time = self.seconds.map(|seconds| Duration::try_from_secs_f64(seconds).unwrap_or(Duration::ZERO));
         let elapsed = || before + began.elapsed();
-        let is_late = || time.is_some_and(|time| elapsed() >= time);
-        let most = self.rounds.unwrap_or(if time.is_some() { u64::MAX } else { USUAL_ROUNDS });
-        let round = |kind, work, parts, best| Round { kind, work, parts, best, time: elapsed() };
-        let (mut search, mut info, mut number, mut idle) = match stored {
-            Some(stored) => stored.search(self, task, seed)?,
+        let is_late = |next: Duration| time.is_some_and(|time| elapsed() + next >= time);
+        let (mut course, mut info) = match stored {
+            Some(stored) => stored.course(self, task, seed)?,
             None => {
                 let mut info = Improved { searches: 1, ..Improved::default() };
-                let mut first = self.start(task, seed, &mut info.attempts, watch, &|| !is_late())?;
+                let may_try = || !is_late(Duration::ZERO);
+                let mut first = self.start(task, seed, 0, &mut info.attempts, watch, &may_try)?;
                 info.lost = std::mem::take(&mut first.losses).explained(task);
-                let (work, is_stopped) = (first.steps, first.interrupted);
-                let tried = info.attempts.last().map_or(self.particles, |attempt| attempt.particles);
-                let unit = (work * self.particles as u64 / tried as u64).max(1);
-                let search = Search::begin(self, task, seed, unit, info.attempts.len() as u64, first)?;
-                info.rounds.push(round(Kind::Population, work, 0, search.best.log_score));
-                info.interrupted = is_stopped;
-                (search, info, 0, 0)
+                info.interrupted = first.interrupted;
+                let work = first.steps;
+                let course = Course::begin(self, task, seed, &info, first)?;
+                info.price = course.price;
+                let (kind, best, time) = (Kind::Population, course.best(), elapsed());
+                info.rounds.push(Round { kind, work, parts: 0, best, time });
+                (course, info)
             }
         };
         let invalid = || task.invalid.counts();
-        while number < most && idle < PATIENCE.max(number / 2) && !info.interrupted && !is_late() {
-            if let Some(checkpoint) = outputs.checkpoint {
-                checkpoint
-                    .at_border(part, || Stored::of(&search, &info, (number, idle), elapsed(), invalid()));
+        while !info.interrupted && !course.is_perfect() {
+            let is_over = match (self.rounds, time) {
+                (None, None) => course.is_done(),
+                (rounds, _) => {
+                    rounds.is_some_and(|rounds| course.number >= rounds) || is_late(next(&course, &info))
+                }
+            };
+            if is_over {
+                break;
             }
-            let before = search.best.log_score;
-            outputs.shown.inspect(|shown| search.best.show(shown));
+            if let Some(checkpoint) = outputs.checkpoint {
+                checkpoint.at_border(part, || Stored::of(&course, &info, elapsed(), invalid()));
+            }
+            outputs.shown.inspect(|shown| course.show(shown));
+            let number = course.number as usize;
             let mut may_continue = |best: f64| {
-                info.interrupted |= !watch(Progress { barriers: number as usize, ended: 1, best });
+                info.interrupted |= !watch(Progress { barriers: number, ended: 1, best });
                 !info.interrupted
             };
-            let (kind, work, parts) = search.round(number, &mut may_continue)?;
-            number += 1;
-            let gain = search.best.log_score - before;
-            idle = if gain < LEAST_GAIN { idle + 1 } else { 0 };
-            info.rounds.push(round(kind, work, parts, search.best.log_score));
+            let round = course.round(&mut may_continue)?;
+            info.rounds.push(Round { time: elapsed(), ..round });
         }
         // A round that was stopped is made again after a resume.
         if let Some(checkpoint) = outputs.checkpoint.filter(|_| !info.interrupted) {
-            checkpoint.store(part, || Stored::of(&search, &info, (number, idle), elapsed(), invalid()));
+            checkpoint.store(part, || Stored::of(&course, &info, elapsed(), invalid()));
         }
-        Ok((search.best, info))
+        Ok((course.into_best(), info))
+    }
+}
+
+/// The time that the next round will take, as the last round or the first population took.
+fn next(course: &Course<'_>, info: &Improved) -> Duration {
+    let ends: Vec<Duration> = info.rounds.iter().map(|round| round.time).collect();
+    match *ends.as_slice() {
+        [first, ..] if course.is_still() => first,
+        [.., before, last] => last.saturating_sub(before),
+        _ => Duration::ZERO,
     }
 }
 

@@ -23,7 +23,7 @@ use std::collections::HashMap;
 use std::time::Duration;
 
 /// Number of rounds that together cost as much as the first population.
-const PER_POPULATION: u64 = 5;
+pub(super) const PER_POPULATION: u64 = 5;
 /// The share of a kind's gain that is forgotten with each of its rounds.
 const FORGOTTEN: f64 = 0.5;
 /// The share of the rounds for the kind with the least work so far.
@@ -38,6 +38,8 @@ const MORE: usize = 5;
 pub enum Kind {
     /// A population from the start.
     Population,
+    /// A population from the start, from whose best run the next rounds go on.
+    Restart,
     /// Parts grown again by few particles.
     Regrow,
     /// Parts grown again by five times as many particles.
@@ -47,12 +49,14 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// The kinds that share the rounds. A restart is no step from the best run.
     const ALL: [Kind; 4] = [Kind::Regrow, Kind::Move, Kind::RegrowMore, Kind::Population];
 
     /// The name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Kind::Population => "population",
+            Kind::Restart => "restart",
             Kind::Regrow => "regrow",
             Kind::RegrowMore => "regrow more",
             Kind::Move => "move",
@@ -100,7 +104,7 @@ pub(super) struct Search<'a> {
     improve: &'a Improve,
     seed: u64,
     /// The work of a round.
-    slice: u64,
+    pub slice: u64,
     /// The spreads of choices, for small steps; empty before the first round of moves.
     spreads: HashMap<u128, f64>,
     pub best: Run,
@@ -141,7 +145,6 @@ impl<'a> Search<'a> {
     }
 
     /// A search from a run and a chain's state at it, with rounds of this work, and with what another search has learnt.
-    #[expect(clippy::too_many_arguments, reason = "the state of a search")]
     pub fn at(
         improve: &'a Improve,
         task: &'a Task,
@@ -324,7 +327,7 @@ impl<'a> Search<'a> {
 }
 
 /// A run from stored data, with the value that the program returns.
-fn with_value(task: &Task, run: Run) -> std::result::Result<Run, Failure> {
+pub(super) fn with_value(task: &Task, run: Run) -> std::result::Result<Run, Failure> {
     let known = by_address(&run.log.entries());
     let (state, _) = State::start(task, Streams::new(0, 0), 1, Some(&known))?;
     Ok(Run { value: state.trace.result(), is_bare: false, ..run })

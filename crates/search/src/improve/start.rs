@@ -44,13 +44,19 @@ const FORMS: [Form; 6] = [
     Form { name: "depth-first order", times: 6, power: 1.0 / 16.0, order: Order::DepthFirst, ..USUAL },
 ];
 
+/// The number of the form by its name in reports; the first for an unknown name.
+pub(super) fn number_of(form: &str) -> usize {
+    FORMS.iter().position(|known| known.name == form).unwrap_or(0)
+}
+
 /// The name of a form in reports, as a static text.
 pub(super) fn name_of(form: &str) -> &'static str {
     FORMS.iter().find(|known| known.name == form).map_or(USUAL.name, |known| known.name)
 }
 
 impl Improve {
-    /// A surviving population; `attempts` receives each population that was tried. `may_continue` decides before each further one.
+    /// A surviving population, of the form with number `from` or a later one; `attempts` receives each population that was tried.
+    /// `may_continue` decides before each further one.
     ///
     /// # Errors
     /// The failure of the first population, if all died.
@@ -58,12 +64,13 @@ impl Improve {
         &self,
         task: &Task,
         seed: u64,
+        from: usize,
         attempts: &mut Vec<Attempt>,
         watch: &mut dyn FnMut(Progress) -> bool,
         may_continue: &dyn Fn() -> bool,
     ) -> std::result::Result<Result, Failure> {
         let mut first = None;
-        for (number, form) in FORMS.iter().enumerate() {
+        for (number, form) in FORMS.iter().enumerate().skip(from) {
             let settings = Settings {
                 particles: self.particles * form.times,
                 power: self.power * form.power,

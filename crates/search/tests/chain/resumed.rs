@@ -105,7 +105,7 @@ fn trajectories_go_on_with_the_same_bits() {
 fn improved(task: &Task, left: HashMap<u64, String>, looks: u64) -> (Option<String>, HashMap<u64, String>) {
     let task = task.uncounted();
     let text = r#"{"method": "improve", "particles": 20, "regrow": 5, "power": 4.0, "rounds": 12,
-                   "seconds": null, "diverse": null, "proposal": null}"#;
+                   "seconds": null, "effort": 1.0, "diverse": null, "proposal": null}"#;
     let method = Method::read(text).expect("a method");
     let checkpoint = Checkpoint::of(left);
     let outputs = Outputs { checkpoint: Some(&checkpoint), ..Outputs::default() };

@@ -210,7 +210,7 @@ fn a_guided_search_finds_the_best() {
     let search = |proposal: &str| {
         let text = format!(
             r#"{{"method": "improve", "particles": 8, "regrow": 3, "power": 16.0, "rounds": 30, "seconds": null,
-                "diverse": null, "proposal": {proposal}}}"#
+                "effort": 1.0, "diverse": null, "proposal": {proposal}}}"#
         );
         let inputs = Inputs { seed: 4, attached: &attached, ..Inputs::default() };
         let results = Method::read(&text).expect("a method").search(&task, &inputs, &mut |_, _, _| true);

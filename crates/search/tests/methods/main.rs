@@ -3,6 +3,7 @@
 //! * `annealed`: annealed importance sampling is unbiased for the evidence;
 //! * `gradients`: recorded densities and their slopes;
 //! * `nested`: probabilities of an inner query, recorded;
+//! * `spending`: how long a search for the best goes on;
 //! * `totals`: sums are exact for terms of any size.
 //!
 //! One program, because each would compile the machine again. `memory` has an allocator of its own.
@@ -10,4 +11,5 @@
 mod annealed;
 mod gradients;
 mod nested;
+mod spending;
 mod totals;

@@ -165,15 +165,18 @@ class Settings(Struct, frozen=True, forbid_unknown_fields=True):
     seed
         The seed; None for a fresh seed each time.
     effort
-        The factor of the usual number of rounds of `improve`.
+        The factor of the usual work of a search, as for `improve`.
     strength
         The choice among the results of a search: 0 for the best, 1 for the most different.
+    by
+        What tells results apart: their kind, or their look.
     """
 
     count: Count = 8
     seed: Seed | None = None
     effort: Effort = 1.0
     strength: Strength = 0.0
+    by: Literal["kind", "look"] = "kind"
 
 
 class Key(Struct, frozen=True, forbid_unknown_fields=True):
@@ -200,6 +203,8 @@ class Outcome(Struct, frozen=True):
     outside: float | None = None
     #: A note that the gallery shows in place of these shares.
     note: str = ""
+    #: What tells it apart from the other results of its run, in words.
+    kind: str = ""
     #: These shares as a person reads them.
     fit: str = ""
     #: The requirements beside the model that the result does not keep, in words.

@@ -9,13 +9,16 @@ from math import isfinite
 from typing import Any, Literal
 
 import numpy as np
+from msgspec import structs
 from numpy.typing import NDArray
 
 import niwaki as nw
 from niwaki.lang.compiled import translated
+from niwaki.methods.improve import usual_rounds
 from niwaki.result import Progress, Result, Sample
 from niwaki.result.progress import Watch
 from niwaki.result.search_like import SearchLike
+from niwaki.search import named
 from niwaki.shell import requirements
 from niwaki.shell.references import ModelReference
 from niwaki.studio.messages import (
@@ -38,8 +41,6 @@ from niwaki.studio.worker import asks, fitting, models, prior, runs, shapes, var
 from niwaki.studio.worker.places import as_drawn
 from niwaki.studio.worker.thinning import GHOST_TRIANGLES
 
-#: Rounds of `improve` at effort 1: its default.
-ROUNDS = 15
 #: Particles for growing a part again.
 REGROWTH_PARTICLES = 100
 #: The most primitives of a run of the model that is drawn with smooth normals.
@@ -104,16 +105,27 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
         return nw.grow(
             model.model,
             **goals,
-            rounds=max(1, round(ROUNDS * settings.effort)),
+            **spending(settings.effort),
             diverse=variety.candidates(settings.count, settings.strength) if settings.count > 1 else None,
+            by=settings.by,
             seed=seed,
             hold=hold,
             progress=progress,
         )
 
     result = requirements.keeping(requirements.beside(model), attempt, job.seed)
+    kinds = dict(zip(map(id, result.samples), named(result), strict=True))
     result.samples = variety.spread(ended(result), settings.count, settings.strength)
-    return _answer(result, model, job.run, job.file, "run", send, job.id)
+    answer = _answer(result, model, job.run, job.file, "run", send, job.id)
+    words = [", ".join(f"{name}: {value}" for name, value in kinds[id(sample)]) for sample in result.samples]
+    outcomes = [structs.replace(each, kind=text) for each, text in zip(answer.outcomes, words, strict=True)]
+    return structs.replace(answer, outcomes=outcomes)
+
+
+def spending(effort: float) -> dict[str, Any]:
+    """Return the settings of a search with an effort: as many rounds, where all searches have a number of rounds."""
+    rounds = usual_rounds()
+    return {"effort": effort} if rounds is None else {"rounds": max(1, round(rounds * effort))}
 
 
 def watching(job: int, run: int, send: Any, check: Callable[[], None]) -> Watch:

@@ -28,8 +28,9 @@ def grow(job: GrowValues, send: Any, check: Callable[[], None]) -> Answer:
     result = nw.grow(
         model.model,
         score=targets.asks.score(goals),
-        rounds=max(1, round(jobs.ROUNDS * job.settings.effort)),
+        **jobs.spending(job.settings.effort),
         diverse=job.settings.count if job.settings.count > 1 else None,
+        by=job.settings.by,
         seed=job.seed,
         progress=jobs.watching(job.id, job.run, send, check),
         **job.arguments,

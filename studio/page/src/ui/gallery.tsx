@@ -1,6 +1,6 @@
 // The strip of results: pictures from one direction, scores, stars.
 
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import type { Outcome, Shape } from "../messages";
 import { onPictureOf, pictureOf } from "../pictures";
 import * as store from "../store";
@@ -25,8 +25,10 @@ export const shapeOf = (name: string): [Shape, ArrayBuffer] | undefined => shape
 export function Gallery() {
   const view = store.view.value;
   const strip = useRef<HTMLDivElement>(null);
-  const results = view?.results ?? [];
-  if (results.length === 0 && store.glimpses.value.size > 0 && !store.isSearching.value) return <Models />;
+  const [words, setWords] = useState("");
+  const all = view?.results ?? [];
+  const results = all.filter(({ kind }) => words === "" || has(kind ?? "", words));
+  if (all.length === 0 && store.glimpses.value.size > 0 && !store.isSearching.value) return <Models />;
   const move = (event: KeyboardEvent) => {
     const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (by === undefined) return;
@@ -38,14 +40,34 @@ export function Gallery() {
     strip.current?.querySelectorAll<HTMLElement>("[role=option]")[results.indexOf(next)]?.focus();
   };
   return (
-    <div class="gallery" role="listbox" aria-label="Results" aria-orientation="horizontal" ref={strip} onKeyDown={move}>
-      {results.length === 0 && <p class="quiet empty">Results appear here, the best first.</p>}
-      {results.map((outcome, place) => (
-        <Card key={store.nameOf(outcome.key)} outcome={outcome} number={place + 1} />
-      ))}
+    <div class="gallery">
+      {all.length === 0 && <p class="quiet empty">Results appear here, the best first.</p>}
+      {all.some(({ kind }) => kind) && (
+        <input
+          class="filter"
+          type="search"
+          placeholder="filter"
+          aria-label="Filter results by words of their kind"
+          title={[...new Set(all.map(({ kind }) => kind ?? ""))].filter((kind) => kind !== "").join("\n")}
+          value={words}
+          onInput={(event) => setWords(event.currentTarget.value)}
+        />
+      )}
+      <div class="results" role="listbox" aria-label="Results" aria-orientation="horizontal" ref={strip} onKeyDown={move}>
+        {results.map((outcome) => (
+          <Card key={store.nameOf(outcome.key)} outcome={outcome} number={all.indexOf(outcome) + 1} />
+        ))}
+      </div>
     </div>
   );
 }
+
+/** Whether a kind has each of the words. */
+const has = (kind: string, words: string): boolean =>
+  words
+    .toLowerCase()
+    .split(/\s+/)
+    .every((word) => kind.toLowerCase().includes(word));
 
 /** Models to begin with, each with a picture of a run, in place of results that are not there yet. */
 function Models() {
@@ -122,7 +144,7 @@ function Card({ outcome, number }: { outcome: Outcome; number: number }) {
       <canvas ref={canvas} width={WIDTH} height={HEIGHT} />
       <div class="caption">
         <b>{number}</b>
-        <span title={`${share || "no target"}, log score ${score}`}>
+        <span title={[share || "no target", `log score ${score}`, outcome.kind].filter(Boolean).join(", ")}>
           {share || score}
         </span>
         <button

@@ -237,6 +237,15 @@ function Search({ settings }: { settings: Settings }) {
           <output>{STRENGTHS[Math.round(4 * (settings.strength ?? 0))]}</output>
         </label>
       )}
+      {isScene && (settings.count ?? 1) > 1 && (
+        <label class="row" title="What tells results apart: the choices and calls that carry much of the scene, or the cells that they fill">
+          <span>differ by</span>
+          <select value={settings.by} onChange={(event) => set({ by: event.currentTarget.value as "kind" | "look" })}>
+            <option value="kind">kind</option>
+            <option value="look">look</option>
+          </select>
+        </label>
+      )}
       <label class="row">
         <span>effort</span>
         <Field

@@ -66,6 +66,16 @@ pub(super) fn place(path: &str) -> String {
     out
 }
 
+/// A place in which a function that calls itself is named once, so that all levels of a recursion are counted together.
+fn folded(place: &str) -> String {
+    let components: Vec<&str> = place.split('/').collect();
+    let last = components.len() - 1;
+    let is_first = |at: usize| !components[..at].contains(&components[at]);
+    let is_kept = |at: usize| at == last || is_first(at) && components[at] != components[last];
+    let kept = (0..components.len()).filter(|at| is_kept(*at)).map(|at| components[at]);
+    kept.collect::<Vec<_>>().join("/")
+}
+
 /// A replay without scores, of known choices; missing ones are drawn.
 ///
 /// # Errors
@@ -161,7 +171,7 @@ impl Structure {
         let mut kind = Kind::new();
         let mut values: BTreeMap<String, Vec<String>> = BTreeMap::new();
         for choice in trace.choices.iter().filter(|choice| self.has(choice)) {
-            values.entry(place(&choice.path)).or_default().push(text(choice));
+            values.entry(folded(&place(&choice.path))).or_default().push(text(choice));
         }
         for (place, mut all) in values {
             all.sort();
@@ -181,7 +191,7 @@ impl Structure {
             for call in calls {
                 let place = place(call);
                 if self.calls.contains(&place) {
-                    *counts.entry(place).or_default() += 1;
+                    *counts.entry(folded(&place)).or_default() += 1;
                 }
             }
             // The brackets keep calls apart from choices of the same name.
@@ -276,6 +286,13 @@ mod tests {
         assert_eq!(place("legs(3, (1, 2))/kind"), "legs()/kind");
         assert_eq!(place("while[0]#1/x"), "while[]#1/x");
         assert_eq!(calls_around("a/b[1]/c").collect::<Vec<_>>(), ["a", "a/b[1]"]);
+    }
+
+    #[test]
+    fn levels_of_a_recursion_are_one_place() {
+        assert_eq!(folded("branch/branch/side/branch/kind"), "branch/side/kind");
+        assert_eq!(folded("branch/branch/branch"), "branch");
+        assert_eq!(folded("house/roof/kind"), "house/roof/kind");
     }
 
     #[test]

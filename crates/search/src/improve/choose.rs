@@ -17,7 +17,7 @@ pub(super) struct Candidate<'a> {
 pub(super) struct Rule {
     pub count: usize,
     /// The most nats below the best for a run of another niche to come before a second run of one niche.
-    pub within: f64,
+    pub margin: f64,
     /// Whether only looks count.
     pub by_look: bool,
     /// Whether a run of every niche comes before any second run.
@@ -40,7 +40,7 @@ pub(super) fn choose(
     differ: &dyn Fn(usize, usize) -> bool,
 ) -> Vec<usize> {
     let Some(best) = candidates.first() else { return vec![] };
-    let is_good = |place: usize| candidates[place].score >= best.score - rule.within;
+    let is_good = |place: usize| candidates[place].score >= best.score - rule.margin;
     let mut chosen: Vec<usize> = vec![];
     let new_niches = |chosen: &mut Vec<usize>, is_in: &dyn Fn(usize) -> bool| {
         for place in 0..candidates.len() {
@@ -88,14 +88,14 @@ mod tests {
     use super::*;
 
     /// Places of the chosen among runs given as (score, niche, cells).
-    fn chosen(runs: &[(f64, usize, &[u32])], count: usize, within: f64, by_look: bool) -> Vec<usize> {
+    fn chosen(runs: &[(f64, usize, &[u32])], count: usize, margin: f64, by_look: bool) -> Vec<usize> {
         let cells: Vec<Cells> = runs.iter().map(|run| Cells::of(run.2)).collect();
         let candidates: Vec<Candidate<'_>> = runs
             .iter()
             .zip(&cells)
             .map(|(run, cells)| Candidate { score: run.0, niche: run.1, cells })
             .collect();
-        choose(&candidates, &Rule { count, within, by_look, each: false }, &|_, _| true)
+        choose(&candidates, &Rule { count, margin, by_look, each: false }, &|_, _| true)
     }
 
     const RUNS: [(f64, usize, &[u32]); 5] = [

@@ -74,7 +74,8 @@ impl Niches {
             if values.is_empty() && !traces.is_empty() {
                 return Err(unknown(name, traces));
             }
-            let reals = values.iter().filter_map(|value| if let Value::Real(x) = value { Some(*x) } else { None });
+            let reals =
+                values.iter().filter_map(|value| if let Value::Real(x) = value { Some(*x) } else { None });
             let reals: Vec<f64> = reals.filter(|x| x.is_finite()).collect();
             if let Some(low) = reals.iter().copied().reduce(f64::min) {
                 let high = reals.iter().copied().fold(low, f64::max);

@@ -1,7 +1,7 @@
 //! The best of every kind: a search for several results that differ, around an archive of the best runs of each niche.
 //!
 //! 1. The search for the best is made as it is alone, so that the best result is no worse than without the archive.
-//! 2. A population of low power shows the structure of the model: which finite choices and calls tell kinds apart (`structure`).
+//! 2. A population of low power and runs of the prior show the structure of the model: which finite choices and calls tell kinds apart (`structure`).
 //!    It is fixed then. What tells niches apart follows from it, or from the names that a user gave (`niche`).
 //! 3. Generations of short searches, side by side. Some turn one choice of a good run so that a niche comes that was never met, and
 //!    grow what it brings; others improve the run of a promising niche with its choices held; where there are fewer niches
@@ -11,20 +11,15 @@
 //! A generation is planned from the archive alone, and its searches are counted, so the bits do not depend on threads. The archive is
 //! stored between two generations.
 
-mod choose;
-mod look;
-mod niche;
-mod structure;
-
-pub(super) use niche::By;
-
-use super::rounds::{Learnt, Search, best_of};
+use super::choose::{ALIKE, Candidate, Rule, choose};
+use super::look::{Cells, bounds, cells_of, grid};
+use super::niche::Niches;
+use super::rounds::{Learnt, PER_POPULATION, Search, best_of};
+use super::structure::{Kind, Structure, below, steps, traced, turned};
 use super::{Improve, Improved, Outputs, part_seed};
-use choose::{ALIKE, Candidate, Rule, choose};
-use look::{Cells, bounds, cells_of, grid};
-use niche::Niches;
 use niwaki_chain::walk::state::State;
 use niwaki_chain::walk::streams::Streams;
+use niwaki_geom::sketch::product::Sketches;
 use niwaki_geom::{Aabb, Grid, vec3};
 use niwaki_math::Stream;
 use niwaki_particles::distinct::Choices;
@@ -40,17 +35,20 @@ use niwaki_run::{Failure, Task};
 use niwaki_vm::machine::invalid::Counts;
 use niwaki_vm::value::Value;
 use serde::{Deserialize, Serialize};
-use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::time::{Duration, Instant};
-use structure::{Kind, Structure, below, steps, traced, turned};
 
 /// The work of the whole search, in that of the search for the single best.
 const TIMES: u64 = 4;
+/// The least work of a first search without a number of rounds, in populations.
+const LEAST: u64 = 4;
 /// The number of short searches that are made side by side.
 const GENERATION: usize = 8;
 /// Most searches of a generation for new niches while there are fewer than results, and after that.
 const NEW_FIRST: usize = 6;
 const NEW_LATER: usize = 4;
+/// Most searches for a niche that found no possible run; fewer than there are forms of populations.
+const TRIES: u32 = 3;
 /// Most turns that are tried for each search for a new niche.
 const TURNS: usize = 8;
 /// The number of rounds of a short search.
@@ -103,7 +101,7 @@ struct Stored<R> {
     rules: Niches,
     bounds: Option<[[u64; 3]; 2]>,
     niches: Vec<StoredNiche<R>>,
-    tried: BTreeSet<String>,
+    tried: BTreeMap<String, u32>,
     searches: u64,
     work: u64,
     time: Duration,
@@ -121,6 +119,10 @@ struct Job {
     /// The values of other choices; `None` to start from a population.
     known: Option<HashMap<u128, Value>>,
     learnt: Option<Learnt>,
+    /// The number of the form of its population; each further search for a niche takes another one.
+    form: usize,
+    /// The score below which the known values are no place to begin, nats: half of what a good run had is lost.
+    least: f64,
 }
 
 /// What a short search returns: its best runs in order, with what it had learnt then, and its work.
@@ -138,8 +140,8 @@ struct Archive<'a> {
     bounds: Option<Aabb>,
     grid: Option<Grid>,
     niches: BTreeMap<Kind, Niche>,
-    /// The niches for which a search was made, as text.
-    tried: BTreeSet<String>,
+    /// The number of searches that were made for a new niche, by its text.
+    tried: BTreeMap<String, u32>,
     searches: u64,
     work: u64,
 }
@@ -156,12 +158,15 @@ pub(super) fn search(
     outputs: Outputs<'_>,
     watch: &mut Watch<'_>,
 ) -> Result<(Vec<Run>, Improved), Failure> {
-    let single = Improve { diverse: None, ..improve.clone() };
-    let (mut best, mut info) = single.single(task, seed, 0, outputs, &mut |progress| watch(progress))?;
-    let first: u64 = info.rounds.iter().map(|round| round.work).sum();
-    let slice = info.rounds.first().map_or(1, |round| round.work / 5).max(1);
+    let single = Improve { diverse: None, keeps_all: true, ..improve.clone() };
+    let (best, mut info) = single.single(task, seed, 0, outputs, &mut |progress| watch(progress))?;
+    let population = info.rounds.first().map_or(1, |round| round.work).max(1);
+    let slice = (population / PER_POPULATION).max(1);
+    // A search that ended at once, as nothing could be better, leaves other kinds the work of a few populations.
+    let least = if improve.rounds.is_none() { LEAST * population } else { 0 };
+    let first = info.rounds.iter().map(|round| round.work).sum::<u64>().max(least);
     if info.interrupted {
-        return Ok((vec![best], info));
+        return Ok((best, info));
     }
     // The count of invalid runs is separate, so that the archive is stored with its own count.
     let uncounted = &task.uncounted();
@@ -171,7 +176,7 @@ pub(super) fn search(
     let before = stored.as_ref().map_or(Duration::ZERO, |stored| stored.time);
     let mut archive = match stored {
         Some(stored) => Archive::restored(&single, uncounted, seed, count, stored)?,
-        None => Archive::begin(&single, uncounted, seed, count, best.copy(), watch, &mut info.interrupted)?,
+        None => Archive::begin(&single, uncounted, seed, count, best, watch, &mut info.interrupted)?,
     };
     let spread = spreads(uncounted, seed)?;
     while archive.work < (TIMES - 1) * first && !info.interrupted {
@@ -194,20 +199,20 @@ pub(super) fn search(
     }
     task.invalid.add(uncounted.invalid.counts());
     info.searches = 1 + archive.searches as usize;
-    info.niches = archive.niches.len();
+    (info.niches, info.other_work) = (archive.niches.len(), archive.work);
     let (runs, kinds): (Vec<Run>, Vec<Kind>) = archive.chosen().into_iter().unzip();
     info.kinds = kinds;
     Ok((runs, info))
 }
 
 impl<'a> Archive<'a> {
-    /// The archive of a first population and of the best run.
+    /// The archive of a first population and of the best runs of the restarts.
     fn begin(
         improve: &'a Improve,
         task: &'a Task,
         seed: u64,
         count: usize,
-        best: Run,
+        best: Vec<Run>,
         watch: &mut Watch<'_>,
         interrupted: &mut bool,
     ) -> Result<Archive<'a>, Failure> {
@@ -219,7 +224,7 @@ impl<'a> Archive<'a> {
             proposal: improve.drawn_by.clone(),
             ..Settings::default()
         };
-        let (mut runs, mut work) = (vec![best], 0);
+        let (mut runs, mut work) = (best, 0);
         match smc(task, &settings, watch) {
             Ok(result) => {
                 work += result.steps;
@@ -228,6 +233,17 @@ impl<'a> Archive<'a> {
             }
             Err(failure) if failure.is_impossible() => {}
             Err(failure) => return Err(failure),
+        }
+        // The particles are akin; runs of the prior are not, and show what the model has.
+        for number in 0..improve.particles.div_ceil(2) {
+            let streams = Streams::new(part_seed(seed, number as u64, 8), 0);
+            match State::tried(task, streams, 1, None) {
+                Ok((state, ..)) => runs.push(state.run(&task.program, 0)),
+                Err(Failure::NoStart { .. }) => {}
+                Err(failure) if failure.is_impossible() => {}
+                Err(failure) => return Err(failure),
+            }
+            work += runs.last().map_or(1, |run| run.primitives as u64 + 1);
         }
         let mut seen = HashSet::new();
         runs.retain(|run| seen.insert((run.log_score.to_bits(), run.log_prior.to_bits(), run.primitives)));
@@ -258,7 +274,7 @@ impl<'a> Archive<'a> {
             bounds,
             grid,
             niches: BTreeMap::new(),
-            tried: BTreeSet::new(),
+            tried: BTreeMap::new(),
             searches: 0,
             work,
         };
@@ -407,24 +423,39 @@ impl<'a> Archive<'a> {
             work += steps;
             let Some((job, key)) = turn else { continue };
             let name = format!("{key:?}");
-            if self.niches.contains_key(&key) || self.tried.contains(&name) || tried.contains(&name) {
+            if self.niches.contains_key(&key) || tried.contains(&name) || self.tries(&name) >= TRIES {
                 continue;
             }
+            let form = self.tries(&name) as usize;
             tried.push(name);
-            jobs.push(job);
+            jobs.push(Job { form, ..job });
         }
         // Where no turn brings a new niche, second runs of the best niches.
         for at in 0..wanted.saturating_sub(jobs.len()) {
             let Some((key, niche)) = ranked.get(at % ranked.len().max(1)).filter(|_| few) else { break };
             let (niche, hold) = (Some((*key).clone()), niche.entries[0].features.clone());
-            jobs.push(Job { number: 0, niche, hold, known: None, learnt: None });
+            jobs.push(Job {
+                number: 0,
+                niche,
+                hold,
+                known: None,
+                learnt: None,
+                least: f64::NEG_INFINITY,
+                form: 0,
+            });
         }
-        // The most promising niches: a search without a gain counts as `within` nats.
+        // Half of the others go to those of the best niches that had the fewest searches, half to the most promising ones: a search
+        // without a gain counts as `margin` nats.
+        let room = GENERATION.saturating_sub(jobs.len());
+        let mut neglected: Vec<_> = ranked.iter().copied().take(self.count).collect();
+        neglected.sort_by_key(|(_, niche)| niche.searches);
+        neglected.truncate(room / 2);
         let mut promising = ranked;
-        let within = self.improve.within.unwrap_or(UNLIMITED);
-        let promise = |niche: &Niche| niche.entries[0].run.log_score - within * niche.idle as f64;
+        let margin = self.improve.margin.unwrap_or(UNLIMITED);
+        let promise = |niche: &Niche| niche.entries[0].run.log_score - margin * niche.idle as f64;
         promising.sort_by(|a, b| promise(b.1).total_cmp(&promise(a.1)));
-        for (key, niche) in promising.into_iter().take(GENERATION.saturating_sub(jobs.len())) {
+        promising.retain(|(key, _)| neglected.iter().all(|(other, _)| other != key));
+        for (key, niche) in neglected.into_iter().chain(promising).take(room) {
             let entry = &niche.entries[niche.searches as usize % if few { niche.entries.len() } else { 1 }];
             jobs.push(Job {
                 number: 0,
@@ -432,18 +463,27 @@ impl<'a> Archive<'a> {
                 hold: entry.features.clone(),
                 known: Some(known_of(&entry.run)),
                 learnt: entry.learnt.clone(),
+                least: f64::NEG_INFINITY,
+                form: 0,
             });
         }
         for job in &mut jobs {
             job.number = self.searches;
             self.searches += 1;
         }
-        if self.tried.len() < MOST {
-            self.tried.extend(tried);
+        for name in tried {
+            if self.tried.len() < MOST || self.tried.contains_key(&name) {
+                *self.tried.entry(name).or_default() += 1;
+            }
         }
         // Work is counted even where a plan has no search, so that every search ends.
         self.work += work.max(1);
         Ok(jobs)
+    }
+
+    /// The number of searches for a new niche.
+    fn tries(&self, name: &str) -> u32 {
+        self.tried.get(name).copied().unwrap_or(0)
     }
 
     /// A search in the niche of a good run with one choice turned, and that niche; `None` if the run has no such choice, or
@@ -451,7 +491,11 @@ impl<'a> Archive<'a> {
     ///
     /// # Errors
     /// A fault of the program.
-    fn turned(&self, ranked: &[(&Kind, &Niche)], rng: &mut Stream) -> Result<(Option<(Job, Kind)>, u64), Failure> {
+    fn turned(
+        &self,
+        ranked: &[(&Kind, &Niche)],
+        rng: &mut Stream,
+    ) -> Result<(Option<(Job, Kind)>, u64), Failure> {
         // Better niches are turned more often.
         let place = below(rng, ranked.len()).min(below(rng, ranked.len()));
         let Some(entry) = ranked.get(place).and_then(|(_, niche)| niche.entries.first()) else {
@@ -465,7 +509,9 @@ impl<'a> Archive<'a> {
         let Some(trace) = turned(&self.bare, &rest, choice, rng)? else { return Ok((None, work)) };
         rest.remove(&choice.address);
         let hold = self.entry(Run::default(), &trace, None).features;
-        let job = Job { number: 0, niche: None, hold, known: Some(rest), learnt: None };
+        let empty = Sketches::start(&self.task.sketches).total().value();
+        let least = 0.5 * (entry.run.log_score + empty);
+        let job = Job { number: 0, niche: None, hold, known: Some(rest), learnt: None, least, form: 0 };
         Ok((Some((job, self.rules.niche(&trace))), work))
     }
 
@@ -504,12 +550,16 @@ impl<'a> Archive<'a> {
         all.sort_by(|a, b| b.1.run.log_score.total_cmp(&a.1.run.log_score));
         let candidates: Vec<Candidate<'_>> = all
             .iter()
-            .map(|(niche, entry)| Candidate { score: entry.run.log_score, niche: *niche, cells: &entry.cells })
+            .map(|(niche, entry)| Candidate {
+                score: entry.run.log_score,
+                niche: *niche,
+                cells: &entry.cells,
+            })
             .collect();
         let by = &self.improve.by;
         let rule = Rule {
             count: self.count,
-            within: self.improve.within.unwrap_or(f64::INFINITY),
+            margin: self.improve.margin.unwrap_or(f64::INFINITY),
             by_look: by.is_look(),
             each: by.is_named(),
         };
@@ -559,21 +609,27 @@ fn run(
         Some(Err(failure)) if failure.is_impossible() => None,
         Some(Err(failure)) => return Err(failure),
     };
-    let start = match state {
-        Some(state) => (state.run(&held.program, 0), state),
-        None => {
+    let turned = state.map(|state| (state.run(&held.program, 0), state));
+    let start = match turned {
+        Some(turned) if turned.0.log_score >= job.least => turned,
+        turned => {
             let particles = (FRESH * improve.particles as f64).ceil() as usize;
-            let (power, proposal) = (improve.power, improve.drawn_by.clone());
-            let settings = Settings { particles, seed, power, proposal, ..Settings::default() };
-            match smc(&held, &settings, &mut |progress| watch(progress)) {
+            let (fewer, mut attempts) = (Improve { particles, ..improve.clone() }, vec![]);
+            match fewer
+                .start(&held, seed, job.form, &mut attempts, &mut |progress| watch(progress), &|| false)
+            {
                 Ok(result) => {
                     work += result.steps;
                     if result.interrupted {
                         return Ok((vec![], work));
                     }
-                    best_of(&held, result)?
+                    let grown = best_of(&held, result)?;
+                    turned.into_iter().fold(grown, |a, b| if b.0.log_score > a.0.log_score { b } else { a })
                 }
-                Err(failure) if failure.is_impossible() => return Ok((vec![], work + slice)),
+                Err(failure) if failure.is_impossible() => match turned {
+                    Some(turned) => turned,
+                    None => return Ok((vec![], work + slice)),
+                },
                 Err(failure) => return Err(failure),
             }
         }

@@ -1,0 +1,94 @@
+//! The price of work, in instructions of a processor: a count, so that it is the same on every machine.
+//!
+//! A unit of work is a particle step, a proposal or a moved shape. Its price depends on the model, so it is estimated from one run:
+//! the instructions of the model, the corners of the shapes, which decide how long sketches look at them, and the calls of functions
+//! of the host, each divided by the number of barriers of the run. The factors are rounded from counts of callgrind
+//! (`benches/counts.json`).
+
+use niwaki_chain::walk::state::State;
+use niwaki_chain::walk::streams::Streams;
+use niwaki_geom::solids::shape::Shape;
+use niwaki_run::inside::Inside;
+use niwaki_run::replay::by_address;
+use niwaki_run::run::Run;
+use niwaki_run::task::Hosts;
+use niwaki_run::{Failure, Task};
+use niwaki_vm::code::SiteKind;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::kept::inspect::Item;
+use niwaki_vm::value::Value;
+use std::any::Any;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// What a search spends at least with an effort of 1: about a second of a processor.
+pub(super) const FLOOR: u64 = 3_000_000_000;
+/// A step of a particle, without the model's instructions and shapes.
+const STEP: u64 = 12_000;
+/// An instruction of the model.
+const INSTRUCTION: u64 = 5;
+/// A corner of a box that stands along the axes.
+const ALIGNED_CORNER: u64 = 500;
+/// A corner of any other shape.
+const CORNER: u64 = 3_000;
+/// A call of a function of the host. Its work is unknown, so a thousand calls are as dear as the floor: a search whose host takes
+/// a third of a second ends after minutes.
+const HOST: u64 = FLOOR / 1_000;
+
+/// The price of a unit of work, in instructions.
+///
+/// # Errors
+/// A fault of the program.
+pub(super) fn of(task: &Task, run: &Run) -> Result<u64, Failure> {
+    let calls = Arc::new(Calls { hosts: task.hosts.clone(), number: AtomicU64::new(0) });
+    let task = Task { hosts: calls.clone(), ..task.uncounted() };
+    let known = by_address(&run.log.entries());
+    let (state, _) = State::start(&task, Streams::new(0, 0), 1, Some(&known))?;
+    let mut shapes = 0;
+    state.trace.visit(&task.program, |_, item| {
+        if let Item::Emit(primitive) = item {
+            shapes += primitive.shapes().iter().map(of_shape).sum::<u64>();
+        }
+    });
+    let barriers = state.primitives as u64 + state.trace.totals().factors.unsigned_abs();
+    let instructions = INSTRUCTION * state.trace.counters().instructions;
+    let hosts = HOST.saturating_mul(calls.number.load(Ordering::Relaxed));
+    Ok(STEP + instructions.saturating_add(shapes).saturating_add(hosts) / barriers.max(1))
+}
+
+/// The price of a shape in all sketches together.
+fn of_shape(shape: &Shape) -> u64 {
+    let corner = if shape.is_aligned_box() { ALIGNED_CORNER } else { CORNER };
+    corner * shape.world_mesh().vertices().len() as u64
+}
+
+/// The highest log score that a run can have, nats; infinite where it is not known.
+pub(super) fn most(task: &Task) -> f64 {
+    let mut sites = task.program.functions.iter().flat_map(|function| &function.sites);
+    if task.held.is_some() || sites.any(|site| matches!(site.kind, SiteKind::Factor | SiteKind::Observe(_))) {
+        return f64::INFINITY;
+    }
+    task.sketches.iter().map(|sketch| sketch.most()).sum()
+}
+
+/// The functions of the host, with a count of their calls. An inference inside a model is none: its work is counted in steps.
+struct Calls {
+    hosts: Arc<dyn Hosts>,
+    number: AtomicU64,
+}
+
+impl Hosts for Calls {
+    fn call(&self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault> {
+        let calls = u64::from(self.hosts.inference(constant).is_none());
+        self.number.fetch_add(calls, Ordering::Relaxed);
+        self.hosts.call(constant, args, steps)
+    }
+
+    fn raised(&self) -> Option<Box<dyn Any + Send>> {
+        self.hosts.raised()
+    }
+
+    fn inference(&self, constant: u16) -> Option<Inside> {
+        self.hosts.inference(constant)
+    }
+}

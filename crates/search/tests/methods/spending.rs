@@ -1,0 +1,182 @@
+//! How long a search for the best goes on: a floor of work, patience in work, restarts, and an end where nothing can rise.
+//!
+//! The host knows two hills, of which the higher one is narrow. A call of it is dear, so that few calls are a floor.
+
+use niwaki_geom::{Aabb, no_overshoot, vec3};
+use niwaki_run::Task;
+use niwaki_run::checkpoint::Checkpoint;
+use niwaki_run::task::Hosts;
+use niwaki_search::improve::{Improved, Kind, Outputs};
+use niwaki_search::method::{Info, Inputs, Method};
+use niwaki_vm::core::parse::parse;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::passes::compile;
+use niwaki_vm::value::Value;
+use std::collections::HashMap;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Instructions of the floor, and of a call of the host.
+const FLOOR: u64 = 3_000_000_000;
+const HOST: u64 = FLOOR / 1000;
+
+/// Two hills, with the number of calls.
+#[derive(Default)]
+struct Hills(AtomicU64);
+
+impl Hosts for Hills {
+    fn call(&self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
+        self.0.fetch_add(1, Ordering::Relaxed);
+        let [Value::Real(x)] = args else { return Err(Fault::new("host-function", "a place is a number")) };
+        Ok(Value::Real((1.0 - (x - 0.2).abs()).max(3.0 - 40.0 * (x - 0.9).abs())))
+    }
+}
+
+fn task_of(body: &str, hosts: Arc<dyn Hosts>) -> Task {
+    let text = format!(r#"(module (fn "m" (params) {body}) (entry "m"))"#);
+    Task {
+        hosts,
+        ..Task::new(Arc::new(compile(&parse(&text).expect("core form"), vec![]).expect("a program")))
+    }
+}
+
+fn hills() -> Task {
+    task_of(
+        r#"(set $x (sample (dist uniform 0.0 1.0))) (set $y (sample (dist uniform 0.0 1.0)))
+           (do (factor (sub (mul 4.0 (host 0 $x)) $y))) (return $x)"#,
+        Arc::new(Hills::default()),
+    )
+}
+
+/// The report of a search and its best run, and the parts that it stored; it is stopped after `looks` looks.
+fn searched(
+    task: &Task,
+    limit: &str,
+    left: HashMap<u64, String>,
+    looks: u64,
+) -> (Improved, String, HashMap<u64, String>) {
+    let task = task.uncounted();
+    let text = format!(
+        r#"{{"method": "improve", "particles": 20, "regrow": 4, "power": 1.0, {limit}, "seconds": null,
+            "diverse": null, "proposal": null}}"#
+    );
+    let method = Method::read(&text).expect("a method");
+    let checkpoint = Checkpoint::of(left);
+    let outputs = Outputs { checkpoint: Some(&checkpoint), ..Outputs::default() };
+    let mut looked = 0;
+    let result = method.search(&task, &Inputs { seed: 3, outputs, ..Inputs::default() }, &mut |_, _, _| {
+        checkpoint.ask();
+        looked += 1;
+        looked <= looks
+    });
+    let result = result.expect("a search");
+    let Info::Improved(info) = result.info else { panic!("of improve") };
+    let best = &result.runs[0];
+    let text = format!("{} {:?} {:?}", best.log_score.to_bits(), best.log, best.value);
+    (info, text, checkpoint.collect().0)
+}
+
+fn whole(task: &Task, limit: &str) -> (Improved, String) {
+    let (info, best, _) = searched(task, limit, HashMap::new(), u64::MAX);
+    (info, best)
+}
+
+fn rounds(info: &Improved) -> Vec<(Kind, u64, u64, u64)> {
+    info.rounds.iter().map(|round| (round.kind, round.work, round.parts, round.best.to_bits())).collect()
+}
+
+fn restarts(info: &Improved) -> usize {
+    info.rounds.iter().filter(|round| round.kind == Kind::Restart).count()
+}
+
+/// The first number of rounds after which a search without restarts has spent its floor and stands still.
+fn end(info: &Improved, effort: f64) -> Option<usize> {
+    let (mut total, mut idle) = (info.rounds[0].work, 0);
+    for (number, pair) in info.rounds.windows(2).enumerate() {
+        total += pair[1].work;
+        idle = if pair[1].best - pair[0].best >= 0.01 { 0 } else { idle + pair[1].work };
+        let patience = (2 * info.rounds[0].work).max(FLOOR / 4 / info.price) as f64;
+        let spent = (total * info.price) as f64;
+        if number + 1 >= (15.0 * effort) as usize
+            && spent >= FLOOR as f64 * effort
+            && idle as f64 >= patience * effort
+        {
+            return Some(number + 1);
+        }
+    }
+    None
+}
+
+#[test]
+fn a_search_ends_when_the_floor_is_spent_and_the_best_stands_still() {
+    for effort in [0.05, 0.1, 0.2] {
+        let (info, _) = whole(&hills(), &format!(r#""rounds": null, "effort": {effort}"#));
+        assert_eq!(restarts(&info), 0);
+        assert_eq!(end(&info, effort), Some(info.rounds.len() - 1), "{:?}", rounds(&info));
+    }
+}
+
+#[test]
+fn a_thousand_calls_of_the_host_are_a_floor() {
+    let hosts = Arc::new(Hills::default());
+    let task = Task { hosts: hosts.clone(), ..hills() };
+    let (info, _) = whole(&task, r#""rounds": null, "effort": 1.0"#);
+    let calls = hosts.0.load(Ordering::Relaxed);
+    assert!((400..4000).contains(&calls), "{calls} calls");
+    assert!((HOST..2 * HOST).contains(&info.price), "{}", info.price);
+    // Without dear calls, there is much more work in a floor.
+    let plain = task_of(
+        r#"(set $x (sample (dist uniform 0.0 1.0))) (do (factor $x)) (return $x)"#,
+        Arc::new(Hills::default()),
+    );
+    let (cheap, _) = whole(&plain, r#""rounds": 1, "effort": 1.0"#);
+    assert!(cheap.price < HOST / 100, "{}", cheap.price);
+}
+
+#[test]
+fn restarts_follow_from_work_and_keep_the_best() {
+    let (info, best) = whole(&hills(), r#""rounds": null, "effort": 8.0"#);
+    assert!(restarts(&info) >= 2, "{:?}", rounds(&info));
+    assert!(info.rounds.windows(2).all(|pair| pair[0].best <= pair[1].best));
+    assert!(best.starts_with(&info.rounds[info.rounds.len() - 1].best.to_bits().to_string()));
+    let (again, same) = whole(&hills(), &format!(r#""rounds": {}, "effort": 1.0"#, info.rounds.len() - 1));
+    assert_eq!((rounds(&again), same), (rounds(&info), best));
+}
+
+#[test]
+fn a_search_goes_on_after_its_restarts_with_the_same_bits() {
+    let (info, best) = whole(&hills(), r#""rounds": 500, "effort": 1.0"#);
+    assert!(restarts(&info) >= 2, "{}", restarts(&info));
+    let (mut left, mut stops) = (HashMap::new(), 0);
+    loop {
+        let (part, text, stored) =
+            searched(&hills(), r#""rounds": 500, "effort": 1.0"#, left.clone(), 700 * (1 + stops));
+        left.extend(stored);
+        stops += 1;
+        if !part.interrupted {
+            assert_eq!((rounds(&part), text), (rounds(&info), best));
+            break;
+        }
+    }
+    assert!(stops > 2, "{stops} pieces");
+}
+
+#[test]
+fn a_search_ends_where_no_run_can_be_better() {
+    let domain = Aabb { low: vec3(-2.0, -2.0, -2.0), high: vec3(2.0, 2.0, 2.0) };
+    let within = |factor: &str| Task {
+        sketches: vec![no_overshoot(domain, 2.0).expect("a sketch")],
+        ..task_of(
+            &format!(
+                r#"(set $x (sample (dist uniform 0.1 4.0))) {factor}
+                   (do (emit (box (tuple 0.0 0.0 0.0) (tuple $x 1.0 1.0)))) (return $x)"#
+            ),
+            Arc::new(Hills::default()),
+        )
+    };
+    let (info, _) = whole(&within(""), r#""rounds": 12, "effort": 1.0"#);
+    assert_eq!(info.rounds.len(), 1);
+    // A factor may be higher in another run.
+    let (info, _) = whole(&within("(do (factor 0.0))"), r#""rounds": 12, "effort": 1.0"#);
+    assert_eq!(info.rounds.len(), 13);
+}
