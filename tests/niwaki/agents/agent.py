@@ -35,7 +35,9 @@ class Agent:
         reply = self.runner.run(self.caller.call(tool, arguments))
         size = len(reply.text.encode()), len(reply.picture or b"")
         assert size[0] <= TEXT and size[1] <= PICTURE, (tool, size)
-        self.sizes.append((tool, *size))
+        # What `answer` returns is the answer of an earlier call.
+        named = re.match(r"call \d+: (\w+)", reply.text)
+        self.sizes.append((tool if named is None else named[1], *size))
         return reply
 
     def call(self, tool: str, **arguments: object) -> Reply:

@@ -39,18 +39,17 @@ def main() -> None:
         timed.times = defaultdict(list)
         for number, session in enumerate(SESSIONS):
             replay(timed, session, f"session-{number}")
-    rows = ["| tool | answers | largest text, bytes | largest picture, bytes |", "| --- | --- | --- | --- |"]
+    rows = ["| tool | largest text, bytes | largest picture, bytes |", "| --- | --- | --- |"]
     for tool in sorted({name for name, _, _ in timed.sizes} & {tool.name for tool in tools()}):
         sizes = [size for name, *size in timed.sizes if name == tool]
         text, picture = (max(column) for column in zip(*sizes, strict=True))
-        rows.append(f"| `{tool}` | {len(sizes)} | {text:,} | {f'{picture:,}' if picture else ''} |")
-        times = sorted(timed.times[tool])
+        rows.append(f"| `{tool}` | {text:,} | {f'{picture:,}' if picture else ''} |")
+        times = sorted(timed.times[tool]) or [0.0]
         print(f"{tool:<12} median {times[len(times) // 2]:6.3f} s, longest {times[-1]:6.3f} s")
     table = "\n".join(rows) + "\n"
     print(table)
     if "--write" in sys.argv:
-        # How often a client asks again depends on the machine.
-        TABLE.write_text("\n".join(row for row in rows if not row.startswith("| `answer`")) + "\n")
+        TABLE.write_text(table)
 
 
 if __name__ == "__main__":
