@@ -129,7 +129,8 @@ fn is_same<S: Scalar>(a: &Value<S>, b: &Value<S>) -> bool {
     match (a, b) {
         (Value::Tuple(a), Value::Tuple(b)) => a.ptr_eq(b) || are_same(a.items(), b.items()),
         (Value::List(a), Value::List(b)) => {
-            a.ptr_eq(b) || a.len() == b.len() && are_same(a.chunk(0), b.chunk(0)) && a.len() == a.chunk(0).len()
+            a.ptr_eq(b)
+                || a.len() == b.len() && are_same(a.chunk(0), b.chunk(0)) && a.len() == a.chunk(0).len()
         }
         _ => false,
     }
