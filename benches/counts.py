@@ -7,7 +7,7 @@ step, a shape into the sketches, a choice by a guide, a search by `grow`. The ex
 path on one thread; two counts with different repeats give the price of a unit, because starting and
 compiling cancel. Machine code of models is off (`NIWAKI_JIT=0`), because a thread of its own writes it.
 
-A count that differs from `counts.json` by more than 2 % (4 % where memory decides) ends this with 1. A change that
+A count that differs from `counts.json` by more than 2 % ends this with 1. A change that
 means to change a count writes the table again (`--write`), and its commit says why. Needs Debian's valgrind; without
 it nothing is counted.
 """
@@ -31,9 +31,6 @@ TABLE = ROOT / "benches" / "counts.json"
 FOLDER = ROOT / "out" / "counts"
 #: A share by which a count may differ: libraries of another release choose other instructions.
 ALLOWED = 0.02
-#: The share where a count is not quite the same each time: which distributions are built again depends on where lists
-#: of parameters lie in memory, which the order of hash tables in the compiler decides.
-LOOSE = {"proposal topics": 0.04}
 #: Paths, the unit of each, and two numbers of repeats.
 PATHS = {
     "step hmm": ("particle-step", 1, 3),
@@ -136,7 +133,7 @@ def main(arguments: Sequence[str]) -> int:
         now, before = round(prices[path]), table.get(path)
         change = float("inf") if before is None else now / before - 1
         print(f"{path:22} {PATHS[path][0]:14} {now:14,} {before or 0:14,} {change:+8.1%}", flush=True)
-        if abs(change) > LOOSE.get(path, ALLOWED):
+        if abs(change) > ALLOWED:
             differs.append(path)
         table[path] = now
     if options.write:

@@ -148,9 +148,9 @@ pub struct Site {
     /// Whether the result is read.
     pub is_read: bool,
     /// Whether the site is a call after which the activation returns, with the call's result or with a
-    /// constant. Where activations are dropped, such a call drops the contents of its caller's registers, and a
-    /// call of the same function reuses the registers: a recursion needs the registers of its innermost
-    /// activation alone.
+    /// constant. Where activations are dropped, such a call drops the contents of its caller's registers, and
+    /// below a few activations a call of the same function reuses the registers: a deep recursion needs the
+    /// registers of its innermost activation alone.
     pub is_tail: bool,
     /// The arguments.
     pub args: Args,

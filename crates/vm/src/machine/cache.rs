@@ -129,7 +129,8 @@ fn is_same<S: Scalar>(a: &Value<S>, b: &Value<S>) -> bool {
     match (a, b) {
         (Value::Tuple(a), Value::Tuple(b)) => a.ptr_eq(b) || are_same(a.items(), b.items()),
         (Value::List(a), Value::List(b)) => {
-            a.ptr_eq(b) || a.len() == b.len() && are_same(a.chunk(0), b.chunk(0)) && a.len() == a.chunk(0).len()
+            a.ptr_eq(b)
+                || a.len() == b.len() && are_same(a.chunk(0), b.chunk(0)) && a.len() == a.chunk(0).len()
         }
         _ => false,
     }
@@ -137,14 +138,14 @@ fn is_same<S: Scalar>(a: &Value<S>, b: &Value<S>) -> bool {
 
 /// Whether two rows have the same numbers. A number whose slope is recorded is the same only as the same object.
 fn are_same<S: Scalar>(a: &[Value<S>], b: &[Value<S>]) -> bool {
-    let same = |(a, b): (&Value<S>, &Value<S>)| match (a, b) {
+    let is_equal = |(a, b): (&Value<S>, &Value<S>)| match (a, b) {
         (Value::Real(x), Value::Real(y)) => {
             x.value().to_bits() == y.value().to_bits() && !x.varies() && !y.varies()
         }
         (Value::Int(x), Value::Int(y)) => x == y,
         _ => false,
     };
-    a.len() == b.len() && a.iter().zip(b).all(same)
+    a.len() == b.len() && a.iter().zip(b).all(is_equal)
 }
 
 #[cfg(test)]

@@ -27,6 +27,9 @@ use std::sync::Arc;
 
 pub use super::ids::{FutureId, NodeId};
 
+/// The number of activations that each have registers of their own, see [`State::is_deep`].
+const SHALLOW: usize = 7;
+
 /// An activation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Node {
@@ -366,6 +369,13 @@ impl<S: Scalar> State<S> {
         make_room(&mut self.registers, count, || ceiling.saturating_sub(used));
         self.registers.resize(at + count, Value::None);
         self.add_node(Node { registers: at as u32, ..fresh })
+    }
+
+    /// Whether the run has so many activations that a function that calls itself last hands its registers over. A call with
+    /// registers of its own takes fewer instructions, but a copy of the run copies all registers.
+    #[inline(always)]
+    pub(crate) fn is_deep(&self) -> bool {
+        self.nodes.len() > SHALLOW
     }
 
     /// A node for an activation of the same function that `caller` calls last. It takes over the registers of

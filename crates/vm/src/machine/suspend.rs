@@ -18,10 +18,6 @@ use std::sync::Arc;
 /// The steps of an emission: a search takes about as long to add a primitive to its sketches.
 const EMISSION: u64 = 256;
 
-/// The number of activations up to which a function that calls itself last gives each call registers of its own. It takes fewer
-/// instructions than to hand them over, but a copy of the run copies them.
-const SHALLOW: usize = 8;
-
 /// The function in a function value.
 pub(super) struct Callee {
     pub function: FunctionId,
@@ -251,8 +247,7 @@ impl<S: Scalar> Machine<'_, S> {
     ) -> Result<NodeId, Fault> {
         let path = join(state.nodes[node.0 as usize].path, site.key);
         let places = state.places();
-        let is_deep = state.nodes.len() >= SHALLOW;
-        if site.is_tail && is_deep && state.nodes[node.0 as usize].function == function {
+        if site.is_tail && state.is_deep() && state.nodes[node.0 as usize].function == function {
             r.gather(state, &self.scratch, site.args, &mut self.buffer);
             let created = state.new_node_in_place(self.program, node, u32::from(number.0), path);
             let at = state.nodes[created.0 as usize].registers as usize;

@@ -107,6 +107,10 @@ fn merges_loops_and_exits_do_not_depend_on_effects() {
             "(set $s 0) (for $i (range 3) (body EFFECT (for $j (range $i) (body EFFECT (if (eq $j 1) (then (break))) (set $s (add (mul 10 $s) $j)))))) (return $s)",
             "0",
         ),
+        (
+            "(set $a 0) (set $b 1) (for $i (range 10) (body EFFECT (unpack ($a $b) (tuple $b (add $a $b))))) (return (tuple $a $b))",
+            "(55, 89)",
+        ),
         ("(set $x 1) (for $i (list) (body EFFECT (set $x 2))) (return $x)", "1"),
         (
             "(for $i (range 4) (body EFFECT (for $j (range 4) (body EFFECT (if (eq (add $i $j) 5) (then (return (tuple $i $j)))))))) (return none)",
@@ -233,6 +237,20 @@ fn values_count_while_they_are_held_and_large_values_are_refused() {
     assert!(report.fault.message.contains("100 MB"), "{report}");
     let below = entry("(return (len (mul (list 1) 4000000)))");
     assert!(run_with(&below, bytes(100 << 20)).is_ok());
+}
+
+#[test]
+fn a_run_has_nothing_of_the_run_before_it() {
+    let text = "(module (fn \"m\" (params $x) (if (eq $x 1) (then (set $n (len (mul (list 1) 40000))))
+        (else (set $n (len (mul (list 2) 30000))))) (return $n)) (entry \"m\"))";
+    let program = program(text);
+    // Either list fits, both do not.
+    let mut machine = Machine::new(&program, Limits { bytes: 1 << 20, ..Limits::default() });
+    for (x, length) in [(1, 40_000), (2, 30_000), (1, 40_000)] {
+        let mut state = machine.start(&[Value::Int(x)], true).expect("a start");
+        machine.finish(&mut state, &mut Script::default()).unwrap_or_else(|fault| panic!("{fault}"));
+        assert_eq!(state.result(), Value::Int(length));
+    }
 }
 
 #[test]

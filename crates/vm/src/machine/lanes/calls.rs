@@ -83,7 +83,7 @@ impl Run<'_, '_> {
         let (places, caller) = (self.lanes.state.places(), self.node);
         // For a known function that calls itself last, the registers are passed on.
         let is_known = matches!(site.kind, SiteKind::Call { .. });
-        let created = if site.is_tail && is_known && self.id == function {
+        let created = if site.is_tail && is_known && self.lanes.state.is_deep() && self.id == function {
             self.forget_values(caller);
             let state = &mut self.lanes.state;
             state.new_node_in_place(self.machine.program, caller, u32::from(number.0), path)
