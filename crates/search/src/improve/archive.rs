@@ -370,8 +370,8 @@ impl<'a> Archive<'a> {
     /// Adds a run, unless a better one of its niche looks the same.
     fn insert(&mut self, run: Run, trace: &Trace, learnt: Option<Learnt>) {
         let entry = self.entry(run, trace, learnt);
-        let (new_searches, niches) = (2 * self.count, self.niches.len().max(1));
-        let room = new_searches.div_ceil(niches).max(2);
+        let (results, niches) = (2 * self.count, self.niches.len().max(1));
+        let room = results.div_ceil(niches).max(2);
         let fresh = Niche { entries: vec![], searches: 0, idle: 0 };
         let niche = self.niches.entry(entry.kind.clone()).or_insert(fresh);
         let better = |other: &Entry| other.run.log_score >= entry.run.log_score;
