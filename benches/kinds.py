@@ -1,4 +1,4 @@
-"""What an archive of kinds finds, beside independent searches and beside choices held by hand, at equal work.
+"""The coverage of an archive of kinds, beside independent searches and beside choices held by hand, at equal work.
 
     .venv/bin/python benches/kinds.py [--seeds 3] [--rounds 15] [--sheets FOLDER]
 

@@ -151,8 +151,8 @@ def archive(
             suggestion="`improve(...)`",
         )
     if method is None:
-        own = {name: settings.pop(name) for name in ("rounds", "effort", "bins", "guide") if name in settings}
-        method = Improve(**own)
+        chosen = {name: settings.pop(name) for name in ("rounds", "effort", "bins", "guide") if name in settings}
+        method = Improve(**chosen)
     method = replace(method, diverse=kinds, by=by if isinstance(by, str) else tuple(by), margin=None)
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", TOO_FEW, SearchWarning)

@@ -1,4 +1,4 @@
-"""What tells the results of a search apart: names for people of kinds, and addresses of choices that people named."""
+"""Differences of the results of a search: names for people of kinds, and addresses of choices that people named."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ TOO_FEW = r"only \d+ of \d+ results"
 
 
 def named(result: Result) -> list[list[tuple[str, str]]]:
-    """What tells the results of a search apart, by label, for each result."""
+    """The differences of the results of a search, by label, for each result."""
     info = result.info
     if not isinstance(info, ImproveInfo) or len(info.kinds) != len(result):
         return [[] for _ in result]
@@ -79,13 +79,13 @@ def _labels(search: SearchLike) -> dict[str, str]:
     return known
 
 
-def check_number(info: ImproveInfo, found: int, wanted: int | None, interrupted: bool) -> None:
+def check_number(info: ImproveInfo, results: int, most: int | None, interrupted: bool) -> None:
     """Warn if a search has fewer results than it should."""
-    if wanted is None or found >= wanted or interrupted:
+    if most is None or results >= most or interrupted:
         return
     kinds = f"{info.niches} kind{'' if info.niches == 1 else 's'}"
     warn(
-        f"only {found} of {wanted} results in {info.searches} searches differ, of {kinds}; give more `rounds`, or "
+        f"only {results} of {most} results in {info.searches} searches differ, of {kinds}; give more `rounds`, or "
         "accept that the model has few results",
         SearchWarning,
     )

@@ -57,7 +57,7 @@ const ROUNDS: u64 = 2;
 const STARTS: u64 = 20;
 /// The share of the particles of a population from which a short search starts.
 const FRESH: f64 = 0.5;
-/// What a search without a gain counts, in nats, where a result may be any number of nats below the best.
+/// The cost of a search without a gain, in nats, where a result may be any number of nats below the best.
 const UNLIMITED: f64 = 3.0;
 /// Least gain that counts, nats.
 const LEAST_GAIN: f64 = 0.01;
@@ -73,7 +73,7 @@ struct Entry {
     cells: Cells,
     /// Its choices that tell niches apart.
     features: Vec<Choice>,
-    /// What its search has learnt.
+    /// The gains that its search has learnt.
     learnt: Option<Learnt>,
 }
 
@@ -125,8 +125,8 @@ struct Job {
     least: f64,
 }
 
-/// What a short search returns: its best runs in order, with what it had learnt then, and its work.
-type Found = Result<(Vec<(Run, Learnt)>, u64), Failure>;
+/// The results of a short search: its best runs in order, with what it had learnt then, and its work.
+type Outcome = Result<(Vec<(Run, Learnt)>, u64), Failure>;
 
 /// The archive of a search.
 struct Archive<'a> {
@@ -370,8 +370,8 @@ impl<'a> Archive<'a> {
     /// Adds a run, unless a better one of its niche looks the same.
     fn insert(&mut self, run: Run, trace: &Trace, learnt: Option<Learnt>) {
         let entry = self.entry(run, trace, learnt);
-        let (wanted, niches) = (2 * self.count, self.niches.len().max(1));
-        let room = wanted.div_ceil(niches).max(2);
+        let (results, niches) = (2 * self.count, self.niches.len().max(1));
+        let room = results.div_ceil(niches).max(2);
         let fresh = Niche { entries: vec![], searches: 0, idle: 0 };
         let niche = self.niches.entry(entry.kind.clone()).or_insert(fresh);
         let better = |other: &Entry| other.run.log_score >= entry.run.log_score;
@@ -412,11 +412,11 @@ impl<'a> Archive<'a> {
     fn plan(&mut self) -> Result<Vec<Job>, Failure> {
         let mut rng = Reserved::Improve.stream(self.seed, u128::from(self.searches), 6);
         let (mut jobs, few) = (vec![], self.niches.len() < self.count);
-        let wanted = if few { NEW_FIRST } else { NEW_LATER };
+        let new_searches = if few { NEW_FIRST } else { NEW_LATER };
         let (mut tried, mut work) = (vec![], 0);
         let ranked = self.ranked();
-        for _ in 0..TURNS * wanted {
-            if jobs.len() == wanted {
+        for _ in 0..TURNS * new_searches {
+            if jobs.len() == new_searches {
                 break;
             }
             let (turn, steps) = self.turned(&ranked, &mut rng)?;
@@ -431,7 +431,7 @@ impl<'a> Archive<'a> {
             jobs.push(Job { form, ..job });
         }
         // Where no turn brings a new niche, second runs of the best niches.
-        for at in 0..wanted.saturating_sub(jobs.len()) {
+        for at in 0..new_searches.saturating_sub(jobs.len()) {
             let Some((key, niche)) = ranked.get(at % ranked.len().max(1)).filter(|_| few) else { break };
             let (niche, hold) = (Some((*key).clone()), niche.entries[0].features.clone());
             jobs.push(Job {
@@ -519,7 +519,7 @@ impl<'a> Archive<'a> {
     ///
     /// # Errors
     /// A fault of the program.
-    fn take(&mut self, job: Job, result: Found) -> Result<(), Failure> {
+    fn take(&mut self, job: Job, result: Outcome) -> Result<(), Failure> {
         let (runs, work) = result?;
         self.work += work;
         let best = |archive: &Archive<'_>, key: &Kind| {
@@ -593,7 +593,7 @@ fn run(
     job: &Job,
     spreads: &HashMap<u128, f64>,
     watch: &mut dyn FnMut(Progress) -> bool,
-) -> Found {
+) -> Outcome {
     let seed = part_seed(seed, job.number, 7);
     let mut choices = task.held.as_deref().map_or_else(Vec::new, |held| held.choices().to_vec());
     choices.extend(job.hold.iter().map(|choice| (choice.path.clone(), choice.value.clone())));
@@ -635,13 +635,13 @@ fn run(
         }
     };
     let mut search = Search::at(improve, &held, seed, slice, start, job.learnt.clone(), spreads.clone());
-    let (mut found, mut shown) = (vec![], None);
+    let (mut runs, mut shown) = (vec![], None);
     for number in 0..=ROUNDS {
         let score = search.best.log_score;
         if shown.is_none_or(|shown| score > shown) {
             shown = Some(score);
             if let Some(run) = scored(task, job, &search.best)? {
-                found.push((run, search.learnt()));
+                runs.push((run, search.learnt()));
             }
         }
         if number < ROUNDS {
@@ -651,7 +651,7 @@ fn run(
             work += spent;
         }
     }
-    Ok((found, work.max(1)))
+    Ok((runs, work.max(1)))
 }
 
 /// A run of a search with held choices, scored without them. `None` if it is impossible without them.

@@ -5,7 +5,7 @@ use super::look::Cells;
 /// Runs whose scenes have more than this share of their cells in common look alike.
 pub(super) const ALIKE: f64 = 0.8;
 
-/// What the choice knows of a run.
+/// The knowledge of a run.
 pub(super) struct Candidate<'a> {
     pub score: f64,
     /// The number of its niche.

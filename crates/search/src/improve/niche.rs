@@ -1,4 +1,4 @@
-//! What tells two niches of an archive apart: the kind of a run, or the values of choices or of a query, numbers in bins.
+//! The differences of niches of an archive: the kind of a run, or the values of choices or of a query, numbers in bins.
 
 use super::structure::{Kind, Structure, is_finite, text};
 use niwaki_run::glob::matches;
@@ -47,7 +47,7 @@ struct Names {
     ranges: BTreeMap<String, (u64, u64)>,
 }
 
-/// What tells niches apart, fixed after the first runs.
+/// The differences of niches, fixed after the first runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Niches {
     structure: Structure,

@@ -91,7 +91,7 @@ pub(super) struct Stored<R> {
     spent: [u64; Kind::ALL.len()],
 }
 
-/// What a search has learnt of its steps, for a search that goes on elsewhere.
+/// The gains that a search has learnt, for a search that goes on elsewhere.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Learnt {
     gains: [Option<u64>; Kind::ALL.len()],
@@ -164,7 +164,7 @@ impl<'a> Search<'a> {
         Search { task, improve, seed, slice, spreads, best, state: Some(state), populations: 1, gains, spent }
     }
 
-    /// What the search has learnt of its steps.
+    /// The gains that the search has learnt.
     pub fn learnt(&self) -> Learnt {
         Learnt { gains: self.gains.map(|gain| gain.map(f64::to_bits)), spent: self.spent }
     }

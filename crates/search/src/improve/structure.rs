@@ -263,9 +263,9 @@ pub(super) fn turned(
 fn call_shares(parts: &[Part], whole: &Cells, grid: &Grid) -> BTreeMap<String, f64> {
     let mut filled: BTreeMap<&str, Cells> = BTreeMap::new();
     for part in parts {
-        let own = cells(&part.shapes, grid);
+        let cells_here = cells(&part.shapes, grid);
         for call in calls_around(&part.path) {
-            filled.entry(call).or_default().add(&own);
+            filled.entry(call).or_default().add(&cells_here);
         }
     }
     let mut shares: BTreeMap<String, Mean> = BTreeMap::new();
