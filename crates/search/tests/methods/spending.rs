@@ -151,7 +151,7 @@ fn a_search_goes_on_after_its_restarts_with_the_same_bits() {
     let (mut left, mut stops) = (HashMap::new(), 0);
     loop {
         let (part, text, stored) =
-            searched(&hills(), r#""rounds": 500, "effort": 1.0"#, left.clone(), 700 * (1 + stops));
+            searched(&hills(), r#""rounds": 500, "effort": 1.0"#, left.clone(), 120 * (1 + stops));
         left.extend(stored);
         stops += 1;
         if !part.interrupted {
