@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import sys
 import time
 import warnings
@@ -29,6 +30,9 @@ ROOT = Path(__file__).resolve().parents[2]
 TABLE = Path(__file__).with_name("searches.json")
 #: Folders with the models and helpers of other tests.
 HELPERS = ("agreement", "answers", "niwaki/search", "studio")
+
+# As in the package's tests, searches without rounds are short.
+os.environ.setdefault("NIWAKI_ROUNDS", "15")
 
 if __name__ == "__main__":
     sys.path += [str(ROOT / "tests" / name) for name in HELPERS]

@@ -22,6 +22,7 @@ from niwaki.errors.warned import warn
 from niwaki.inputs import bytes_of
 from niwaki.lang.compiled import translated
 from niwaki.result import Result, Sample
+from niwaki.result.info import ImproveInfo
 from niwaki.search import Search
 from niwaki.search.data import MALFORMED
 from niwaki.search.request import check_format
@@ -75,7 +76,7 @@ def written(result: Result, reference: ModelReference) -> dict[str, Any]:
         "hash": result.search.hash,
         "plan": list(getattr(result.info, "plan", ())),
         "rounds": max(len(getattr(result.info, "rounds", ())) - 1, 0),
-        "spent": getattr(result.info, "spent", {}),
+        **({"spent": result.info.spent} if isinstance(result.info, ImproveInfo) else {}),
         "interrupted": result.interrupted,
         "best": result.samples.index(result.best),
         "shown": result.samples.index(result.best),

@@ -1,9 +1,9 @@
 //! The price of work, in instructions of a processor: a count, so that it is the same on every machine.
 //!
-//! A unit of work is a particle step, a proposal or a moved shape. Its price depends on the model, so it is estimated from one run:
-//! the instructions of the model, the corners of the shapes, which decide how long sketches look at them, and the calls of functions
-//! of the host, each divided by the number of barriers of the run. The factors are rounded from counts of callgrind
-//! (`benches/counts.json`).
+//! A unit of work is a particle step, a proposal or a moved shape. Its price depends on the model, so it is estimated from one run.
+//! The price has the model's instructions, the calls of functions of the host, and the corners of shapes, which decide how long
+//! sketches look at a shape. All are divided by the number of barriers of the run. The factors are rounded from counts of callgrind
+//! (`benches/counts.json`) and from the processor seconds of the problems of `benches/board.py`.
 
 use niwaki_chain::walk::state::State;
 use niwaki_chain::walk::streams::Streams;
@@ -21,7 +21,7 @@ use std::any::Any;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What a search spends at least with an effort of 1: about a second of a processor.
+/// The least work of a search with an effort of 1: about a second of a processor.
 pub(super) const FLOOR: u64 = 3_000_000_000;
 /// A step of a particle, without the model's instructions and shapes.
 const STEP: u64 = 12_000;
