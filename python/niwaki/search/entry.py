@@ -24,7 +24,7 @@ from niwaki.search.checkpoint import Checkpoint, resumed_seed
 from niwaki.search.checks import check_seed, fresh
 from niwaki.search.engine_runs import has_start, replay_choices
 from niwaki.search.request import Search
-from niwaki.targets.sketches import FREE, Score, match_volume, no_self_intersection
+from niwaki.targets.sketches import FREE, Score, no_self_intersection, volume_score
 from niwaki.targets.target import Target
 
 #: The settings of `improve`, the default search of `grow`.
@@ -123,6 +123,7 @@ def grow(
     method: Method | None = None,
     voxel: float | None = None,
     sigma: float = 0.02,
+    weight: str | None = None,
     rule: str = "solid",
     polish: Mh | None = None,
     runs: int = 1,
@@ -153,12 +154,13 @@ def grow(
         search it is one population, too, by default of 50 particles with tempered resampling.
     score
         Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`. They multiply
-        `no_self_intersection(rule)` and, if there is a target, `match_volume(target, voxel, sigma)`. Drawings and
-        scores with a `no_self_intersection` of their own have no other.
+        `no_self_intersection(rule)` and, if there is a target, `match_volume(target, voxel, sigma, weight)`. Drawings
+        and scores with a `no_self_intersection` of their own have no other.
     method
         A method in place of these settings.
-    voxel, sigma
-        As for `match_volume`.
+    voxel, sigma, weight
+        As for `match_volume`. Without `voxel` and `weight`, a thin target has voxels of half the automatic size, and
+        `weight="balanced"`. A target is thin where its parts or gaps are on average thinner than two voxels.
     rule
         As for `no_self_intersection`; "none" lets parts overlap.
     polish
@@ -184,6 +186,7 @@ def grow(
         method=method,
         voxel=voxel,
         sigma=sigma,
+        weight=weight,
         rule=rule,
         polish=polish,
         runs=runs,
@@ -204,6 +207,7 @@ def grow_search(
     method: Method | None = None,
     voxel: float | None = None,
     sigma: float = 0.02,
+    weight: str | None = None,
     rule: str = "solid",
     polish: Mh | None = None,
     runs: int = 1,
@@ -232,7 +236,7 @@ def grow_search(
     if not is_free and not any(ask.function == no_self_intersection.__name__ for ask in product.asks):
         product = no_self_intersection(rule) * product
     if target is not None:
-        product *= match_volume(target, voxel, sigma)
+        product *= volume_score(target, voxel, sigma, weight)
     elif len(product.asks) == (0 if is_free else 1):
         raise InputError("no-target", name=model.name)
     return Search(
