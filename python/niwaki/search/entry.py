@@ -25,7 +25,7 @@ from niwaki.search.checkpoint import Checkpoint, resumed_seed
 from niwaki.search.checks import check_seed, fresh
 from niwaki.search.engine_runs import has_start, replay_choices
 from niwaki.search.request import Search
-from niwaki.targets.sketches import FREE, Score, match_volume, no_self_intersection
+from niwaki.targets.sketches import FREE, Score, no_self_intersection, volume_score
 from niwaki.targets.target import Target
 
 #: The settings of `improve`, the default search of `grow`.
@@ -129,6 +129,7 @@ def grow(
     engine: str = "auto",
     voxel: float | None = None,
     sigma: float = 0.02,
+    weight: str | None = None,
     rule: str = "solid",
     polish: Mh | None = None,
     runs: int = 1,
@@ -162,16 +163,17 @@ def grow(
         resampling.
     score
         Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`. They multiply
-        `no_self_intersection(rule)` and, if there is a target, `match_volume(target, voxel, sigma)`. Drawings and
-        scores with a `no_self_intersection` of their own have no other.
+        `no_self_intersection(rule)` and, if there is a target, `match_volume(target, voxel, sigma, weight)`. Drawings
+        and scores with a `no_self_intersection` of their own have no other.
     method
         A method in place of these settings.
     engine
         "auto": the program decides, never a clock; "sampler": `improve` or `smc`; "emulator": `emulate`, with
         `evaluations` runs. `Result.search.method` and run.json have what was chosen. Settings of `improve` or `smc`
         choose the sampler.
-    voxel, sigma
-        As for `match_volume`.
+    voxel, sigma, weight
+        As for `match_volume`. Without `voxel` and `weight`, a thin target has voxels of half the automatic size, and
+        `weight="balanced"`. A target is thin where its parts or gaps are on average thinner than two voxels.
     rule
         As for `no_self_intersection`; "none" lets parts overlap.
     polish
@@ -198,6 +200,7 @@ def grow(
         engine=engine,
         voxel=voxel,
         sigma=sigma,
+        weight=weight,
         rule=rule,
         polish=polish,
         runs=runs,
@@ -219,6 +222,7 @@ def grow_search(
     engine: str = "auto",
     voxel: float | None = None,
     sigma: float = 0.02,
+    weight: str | None = None,
     rule: str = "solid",
     polish: Mh | None = None,
     runs: int = 1,
@@ -249,7 +253,7 @@ def grow_search(
     if not is_free and not any(ask.function == no_self_intersection.__name__ for ask in product.asks):
         product = no_self_intersection(rule) * product
     if target is not None:
-        product *= match_volume(target, voxel, sigma)
+        product *= volume_score(target, voxel, sigma, weight)
     elif len(product.asks) == (0 if is_free else 1):
         raise InputError("no-target", name=model.name)
     of_sampler = {name: value for name, value in settings.items() if name != "evaluations"}

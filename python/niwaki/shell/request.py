@@ -59,7 +59,7 @@ def search_of(
         Held choices by address.
     """
     chain = settings.polish(flags.polish, flags.polish_kernel)
-    score = targets.asks.score(asks)
+    score = targets.asks.score(asks, targets.sketches.volume_score)
     defaults: dict[str, Any] = (
         {"particles": gallery.PARTICLES} if reference.entry is None else dict(reference.entry.usual)
     )

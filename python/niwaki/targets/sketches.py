@@ -25,6 +25,7 @@ from niwaki.errors.schema import Unfit, shown
 from niwaki.errors.settings import bad, real
 from niwaki.targets.camera import Camera
 from niwaki.targets.target import Receiver, Target
+from niwaki.targets.thin import is_thin
 
 if TYPE_CHECKING:
     from niwaki.draw.scene import Scene
@@ -237,6 +238,22 @@ def match_volume(
         # Without a weight all cells count: the hashes and files of such scores name none.
         arguments["weight"] = settings["weight"] = weight
     return _score("match_volume", arguments, settings, grid=grid, target=solid)
+
+
+def volume_score(
+    target: Target | Place, voxel: float | None = None, sigma: float = 0.02, weight: str | None = None
+) -> Score:
+    """Return the score by which `grow` fills a target: `match_volume`, by default with what a thin target needs.
+
+    Around a thin target it is `match_volume(weight="balanced")` with cells of half the automatic size, if neither a
+    size nor a weight is given. Otherwise all cells count by default.
+    """
+    solid = Target.of(target)
+    if voxel is None and weight is None:
+        size = automatic_voxel(solid)
+        if is_thin(solid, size):
+            return match_volume(solid, 0.5 * size, sigma, "balanced")
+    return match_volume(solid, voxel, sigma, "cells" if weight is None else weight)
 
 
 def match_image(

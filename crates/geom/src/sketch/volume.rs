@@ -69,7 +69,7 @@ impl SketchSpec for VolumeMatch {
     }
 
     fn most(&self) -> f64 {
-        log_normal(1.0, 1.0, self.sigma) + log_normal(0.0, 0.0, self.sigma)
+        log_normal(1.0, 1.0, self.deviation()) + log_normal(0.0, 0.0, self.sigma)
     }
 
     fn window(&self) -> Option<WindowForm> {

@@ -50,7 +50,7 @@ def search(question: Question) -> tuple[ModelReference, dict[str, Any]]:
     goals = model.terms(options)
     guide = shipped(model.model) if model.style is not None and "camera" not in options else None
     return model, {
-        "score": targets.asks.score(goals),
+        "score": targets.asks.score(goals, targets.sketches.volume_score),
         "guide": guide,
         **model.start(goals),
         **question.arguments,

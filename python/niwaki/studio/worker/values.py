@@ -27,7 +27,7 @@ def grow(job: GrowValues, send: Any, check: Callable[[], None]) -> Answer:
     goals = model.terms(Reader().table(job.options))
     result = nw.grow(
         model.model,
-        score=targets.asks.score(goals),
+        score=targets.asks.score(goals, targets.sketches.volume_score),
         **jobs.spending(job.settings.effort),
         diverse=job.settings.count if job.settings.count > 1 else None,
         by=job.settings.by,

@@ -11,7 +11,7 @@ makes the product of them, and `Score.data` writes it.
 from __future__ import annotations
 
 import inspect
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -20,7 +20,7 @@ from typing import Any
 from niwaki.errors import InputError
 from niwaki.targets import drawings
 from niwaki.targets.drawing import Drawing
-from niwaki.targets.sketches import FREE, SKETCHES, Ask, Score, Window
+from niwaki.targets.sketches import FREE, SKETCHES, Ask, Score, Window, match_volume
 
 #: Sketches of a drawing in the plane, where parts of a scene may cross.
 DRAWN = tuple(name for name, make in SKETCHES.items() if "window" in inspect.signature(make).parameters)
@@ -140,7 +140,9 @@ OPTIONS: dict[str, Option] = {
         "N",
         alone="it is the size in which a drawing is compared",
     ),
-    "voxel": Option("number", "Cell size. Default: depends on the model or target.", "SIZE"),
+    "voxel": Option(
+        "number", "Cell size. Default: depends on the model or target; half as large for a thin one.", "SIZE"
+    ),
     "sigma": Option(
         "number",
         "Strictness of the match; smaller is stricter. Default: 0.02, drawings 0.014.",
@@ -148,7 +150,8 @@ OPTIONS: dict[str, Option] = {
     ),
     "volume_weight": Option(
         "word",
-        "Which cells count around a target: all, or those that the target or the scene fills. Default: cells.",
+        "Which cells count around a target: all, or those that the target or the scene fills. Default: balanced around "
+        "thin targets in searches for the best, else cells.",
         "cells|balanced",
         alone="it is how the cells of a target count",
         sets="weight",
@@ -230,8 +233,8 @@ def sketches_of(
     return sorted(asks, key=lambda ask: order.index(ask[0]))
 
 
-def score(asks: Iterable[Ask]) -> Score:
-    """Return the product of sketches."""
+def score(asks: Iterable[Ask], volume: Callable[..., Score] = match_volume) -> Score:
+    """Return the product of sketches; `volume` makes that of a target to fill."""
     product = Score()
     for sketch, arguments in asks:
         if sketch == "match_drawing":
@@ -239,7 +242,8 @@ def score(asks: Iterable[Ask]) -> Score:
                 **{key: value for key, value in arguments.items() if key != "image"}
             )
         else:
-            product *= SKETCHES[sketch](**arguments)
+            make = volume if sketch == "match_volume" else SKETCHES[sketch]
+            product *= make(**arguments)
     return product
 
 
