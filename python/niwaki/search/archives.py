@@ -151,7 +151,9 @@ def archive(
             suggestion="`improve(...)`",
         )
     if method is None:
-        chosen = {name: settings.pop(name) for name in ("rounds", "effort", "bins", "guide") if name in settings}
+        chosen = {
+            name: settings.pop(name) for name in ("rounds", "effort", "bins", "guide") if name in settings
+        }
         method = Improve(**chosen)
     method = replace(method, diverse=kinds, by=by if isinstance(by, str) else tuple(by), margin=None)
     with warnings.catch_warnings():

@@ -123,17 +123,18 @@ class Clock:
         return time.perf_counter() - self._wall, time.process_time() - self._cpu
 
 
-def distinct(runs: list[_engine.Run], number: int, info: PopulationInfo) -> list[_engine.Run]:
+def distinct(runs: list[_engine.Run], number: int, info: PopulationInfo | EmulateInfo) -> list[_engine.Run]:
     """The best runs that differ from one another; runs that did not end or are impossible are left out."""
     ended = [run for run in runs if run.has_ended and run.cause is None]
     ranked = sorted(ended, key=lambda run: -run.log_score)
     chosen = [ranked[place] for place in _engine.different(ranked, number)]
     if len(chosen) < number:
-        populations = f"{len(info.plan)} population{'' if len(info.plan) == 1 else 's'}"
-        warn(
-            f"only {len(chosen)} of {number} results in {populations} differ; give more `populations`",
-            SearchWarning,
-        )
+        if isinstance(info, PopulationInfo):
+            count, cure = len(info.plan), "give more `populations`"
+            where = f"{count} population{'' if count == 1 else 's'}"
+        else:
+            where, cure = f"{info.evaluations} runs", "give more `evaluations`"
+        warn(f"only {len(chosen)} of {number} results in {where} differ; {cure}", SearchWarning)
     return chosen
 
 
