@@ -141,13 +141,13 @@ def faults_of(files: list[Path]) -> tuple[float, list[str]]:
 
 
 def admesh_faults(file: Path) -> list[str]:
-    """What admesh would repair in an .stl."""
+    """The repairs that admesh would make in an .stl."""
     report = subprocess.run(["admesh", str(file)], capture_output=True, text=True, check=True).stdout
-    wanted = ("Edges fixed", "Facets removed", "Facets added", "Facets reversed", "Backwards edges")
-    counts = {word: re.search(rf"{word}\s*:\s*(\d+)", report) for word in wanted}
+    names = ("Edges fixed", "Facets removed", "Facets added", "Facets reversed", "Backwards edges")
+    counts = {word: re.search(rf"{word}\s*:\s*(\d+)", report) for word in names}
     assert all(counts.values()), report
     faults = [
-        f"{file.name}: {word} {found[1]}" for word, found in counts.items() if found and found[1] != "0"
+        f"{file.name}: {word} {count[1]}" for word, count in counts.items() if count and count[1] != "0"
     ]
     bodies = re.search(r"Number of parts\s*:\s*(\d+)", report)
     assert bodies, report

@@ -14,7 +14,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from niwaki.draw.picture import save_image
+from niwaki import draw
 from niwaki.errors import InputError
 from niwaki.errors.settings import count
 from niwaki.lang.models import Model
@@ -103,7 +103,7 @@ class Archive(Sequence[Kind]):
 
     def save(self, path: str | PathLike[str], **settings: Any) -> Path:
         """Draw the sheet into an image file."""
-        return save_image(lambda: self.sheet(**settings), path)
+        return draw.picture.save_image(lambda: self.sheet(**settings), path)
 
     def __str__(self) -> str:
         lines = [
