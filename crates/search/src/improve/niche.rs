@@ -135,7 +135,7 @@ impl Names {
             (Value::Real(x), Some((low, high))) => {
                 let (low, high) = (f64::from_bits(*low), f64::from_bits(*high));
                 let width = (high - low) / self.bins as f64;
-                if !(width > 0.0) {
+                if width.is_nan() || width <= 0.0 {
                     return format!("{low:.4}");
                 }
                 // Values beyond the first runs have bins of the same width, but no more than as many again on each side.
