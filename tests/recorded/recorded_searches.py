@@ -292,6 +292,7 @@ def of_methods() -> Iterator[tuple[str, Search]]:
             yield from variants(
                 f"vi {family} from {start}", LINE, nw.vi(family, 40, 300, 8, start=start, paths=2)
             )
+    yield from variants("emulate", Subject(solids, (), tree_score), nw.emulate(12))
     yield from guided("improve", TREE, partial(nw.methods.improve, 30, 6, rounds=6))
     yield from guided("improve diverse", TREE, partial(nw.methods.improve, 30, 6, rounds=2, diverse=2))
     yield from guided("improve path", PATH, partial(nw.methods.improve, 30, 6, rounds=6))

@@ -46,6 +46,7 @@ def slab(width=Uniform(0.5, 9.0), height=Uniform(0.5, 9.0)):
 #: What is called, by name; a name begins with that of its command. The last call is the one that is meant.
 CALLS: dict[str, Sequence[Sequence[str]]] = {
     "models": [["models"]],
+    "init": [["init", "house"]],
     "show": [["show", "spaceship", "-n", "2", "--seed", "1", "--quick"]],
     "grow improve": [[*TREE, "--rounds", "3"]],
     "grow smc": [

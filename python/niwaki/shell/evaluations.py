@@ -136,9 +136,9 @@ def _smaller(method: Method, runs: float) -> Method:
     """Return a method that makes about this number of runs of the model."""
     if isinstance(method, Improve):
         runs /= _side_by_side(method)
-        particles = min(max(int(runs / 4), FEWEST), method.particles)
+        particles = min(max(round(runs / 4), FEWEST), method.particles)
         regrow = min(max(particles // 5, FEWEST_REGROWN), method.regrow)
-        rounds = int((runs - particles) / (REGROWN * regrow + MOVED))
+        rounds = round((runs - particles) / (REGROWN * regrow + MOVED))
         return replace(
             method, particles=particles, regrow=regrow, rounds=min(max(rounds, FEWEST_ROUNDS), ROUNDS)
         )

@@ -326,9 +326,8 @@ def _summary(result: nw.Result, place: Path, clock: Clock, verbose: bool) -> Non
     if warning := _too_little(result):
         typer.secho(warning, fg="red", err=True)
     info, seeds = result.info, {sample.seed for sample in result}
-    if isinstance(info, results.info.ImproveInfo | results.info.EmulateInfo) and len(seeds) == 1:
-        if verbose:
-            print(info)
+    if verbose and len(seeds) == 1 and isinstance(info, results.info.ImproveInfo | results.info.EmulateInfo):
+        print(info)
         if isinstance(info, results.info.ImproveInfo):
             print(f"spent: {info.bill}")
     losses = getattr(result.info, "losses", None)

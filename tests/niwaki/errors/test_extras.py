@@ -7,6 +7,7 @@ import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from typing import cast
+from unittest import mock
 
 import niwaki as nw
 import numpy as np
@@ -41,8 +42,12 @@ def in_the_studio(_: Path) -> None:
 
 
 def by_tools(folder: Path) -> None:
-    sys.modules.pop("niwaki.agents.server", None)
-    raise cast(Exception, CliRunner().invoke(app, ["mcp", str(folder)]).exception)
+    # As if no earlier test had loaded the server and the parts of its library.
+    loaded = [name for name in sys.modules if name == "niwaki.agents.server" or name.startswith("mcp.")]
+    with mock.patch.dict(sys.modules):
+        for name in loaded:
+            del sys.modules[name]
+        raise cast(Exception, CliRunner().invoke(app, ["mcp", str(folder)]).exception)
 
 
 def on(engine: str) -> Callable[[Path], object]:

@@ -76,7 +76,7 @@ HOSTS = {
 }
 
 #: The other commands: none of them searches for long.
-SHORT = {"models", "doctor", "studio"}
+SHORT = {"models", "doctor", "studio", "mcp", "init"}
 
 
 @contextmanager

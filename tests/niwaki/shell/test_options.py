@@ -98,11 +98,12 @@ FLAGS = {
     "--polish-kernel": ("--polish-kernel", "KERNEL", "Kernel of the chain of --polish."),
     "--regrow": ("--regrow", "N", "The number of particles that grow a part again"),
     "--power": ("--power", "NUMBER", "The power of the score"),
-    "--rounds": ("--rounds", "N", "The most rounds"),
+    "--rounds": ("--rounds", "N", "The number of rounds"),
+    "--effort": ("--effort", "NUMBER", "The factor of the floor of work"),
     "--seconds": (
         "--seconds",
         "SECONDS",
-        ("The time after which no round begins", "Begin no evaluation after so many seconds."),
+        ("The time of the search", "Begin no evaluation after so many seconds."),
     ),
     "--diverse": (
         "--diverse",

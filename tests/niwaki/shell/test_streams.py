@@ -58,13 +58,15 @@ COMMANDS = {
     "studio": "studio --no-browser --session session --port 1",
     "explain": "explain {}/garden.py:tower --choice *",
     "doctor": "doctor",
+    "init": "init begun",
+    "mcp": "mcp {}",
 }
 
 #: Those that write no file.
 QUIET = {"models", "check", "guide show", "doctor"}
 
-#: The studio serves until it is ended; what it does in a folder that it may not write to is tried alone.
-TRIED = {name: words for name, words in COMMANDS.items() if name != "studio"}
+#: Servers run until they are ended; what the studio does in a folder that it may not write to is tried alone.
+TRIED = {name: words for name, words in COMMANDS.items() if name not in ("studio", "mcp")}
 
 PROGRAM = """
 import io, json, os, sys, traceback, warnings
