@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 import trimesh
-from studio_page import at_rest, camera, choose, click_part, grow, picture, settled, until, visible
+from studio_page import at_rest, camera, choose, click_part, grow, picture, resize, settled, until, visible
 from studio_process import serving
 
 #: Sizes of windows, from a small laptop to a large screen.
@@ -134,13 +134,7 @@ def test_nothing_is_cut_off_in_small_and_large_windows_with_classic_scrollbars(b
     grow(page)
     at_rest(page)
     for wide, high in SIZES:
-        page.set_viewport_size({"width": wide, "height": high})
-        until(page, f"innerWidth == {wide} && innerHeight == {high}")
-        # The page has drawn the scene in its new size.
-        until(
-            page,
-            "(canvas => canvas.width == canvas.clientWidth)(document.querySelector('main.stage canvas'))",
-        )
+        resize(page, wide, high)
         page.keyboard.press("f")
         until(page, "window.__studio.isStill")
         strip = page.locator(".gallery").bounding_box()

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
-from studio_page import at_rest, choose, grow, until
+from studio_page import at_rest, choose, grow, resize, until
 
 GOLDEN = Path(__file__).parents[1] / "golden" / "studio"
 SIZES = [(1024, 700), (1440, 900), (1920, 1080)]
@@ -58,12 +58,7 @@ def test_the_page_looks_as_approved(open_page, served, grown, theme, request):
         grown.append(True)
     at_rest(page)
     for wide, high in SIZES:
-        page.set_viewport_size({"width": wide, "height": high})
-        until(page, f"innerWidth == {wide} && innerHeight == {high}")
-        until(
-            page,
-            "(canvas => canvas.width == canvas.clientWidth)(document.querySelector('main.stage canvas'))",
-        )
+        resize(page, wide, high)
         page.keyboard.press("f")
         shot, place = small(page), GOLDEN / f"{wide}x{high}-{theme}.png"
         if request.config.getoption("--update-golden"):

@@ -158,6 +158,16 @@ AT_REST = """(() => {
 })()"""
 
 
+def resize(page, wide, high):
+    """Give the window a size, and wait until the scene is drawn in it."""
+    page.set_viewport_size({"width": wide, "height": high})
+    until(page, f"innerWidth == {wide} && innerHeight == {high}")
+    until(
+        page,
+        "(canvas => canvas.width == canvas.clientWidth)(document.querySelector('main.stage canvas'))",
+    )
+
+
 def at_rest(page):
     """Wait for the fine shape and its choices."""
     until(page, AT_REST)
