@@ -176,6 +176,7 @@ def at_rest(page):
 def settled(page):
     """Wait for the first contents of a model: a result, or a run before any search. The camera stays then."""
     until(page, f"window.__studio.isGhostShown && (window.__studio.shown.role == 'prior' || {AT_REST})")
+    until(page, "window.__studio.isStill")
 
 
 def unstar(page):
