@@ -262,9 +262,16 @@ def _range(choice: _engine.Choice) -> Any:
     return choice.distribution
 
 
+def _place(choice: _engine.Choice) -> Any:
+    """Return the value of a choice in its range: words with weights are numbered."""
+    if choice.words is None or choice.family == "discrete_uniform":
+        return choice.value
+    return choice.words.index(choice.value) if choice.value in choice.words else choice.value
+
+
 def _row(space: Space, search: SearchLike, trace: _engine.Trace) -> list[float]:
     """Return the row of a run; the middle for what it does not choose."""
-    values = {choice.path: choice.value for choice in _free(search, trace)}
+    values = {choice.path: _place(choice) for choice in _free(search, trace)}
     return [axis.place(values[axis.name]) if axis.name in values else 0.5 for axis in space.axes]
 
 
