@@ -34,7 +34,9 @@ def demo(folder: Path) -> None:
             continue
         place = folder / entry.name
         print(f"\n{entry.name}: {entry.title}, into the target `{entry.target_name}`")
-        command = f"grow {entry.name} --runs {RUNS} --seed {SEED} --force -o".split() + [str(place)]
+        command = f"grow {entry.name} --runs {RUNS} --seed {SEED} --effort 0.1 --force -o".split() + [
+            str(place)
+        ]
         print("$ niwaki", *command, flush=True)
         entry_start = time.perf_counter()
         app(command, standalone_mode=False)
