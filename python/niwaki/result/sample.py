@@ -24,6 +24,12 @@ if TYPE_CHECKING:
     from niwaki.result.search_like import SearchLike
 
 
+def place(choice: _engine.Choice) -> Any:
+    """Return the value of a choice, with the place among the options, from 0, for a word."""
+    words = choice.words
+    return choice.value if words is None or choice.value not in words else words.index(choice.value)
+
+
 class Sample:
     """Single run of a model.
 
@@ -249,12 +255,7 @@ class Sample:
     @property
     def places(self) -> dict[str, Any]:
         """The choices by readable address, with the place among the options, from 0, for each word."""
-        return {
-            choice.path: choice.value
-            if choice.words is None or choice.value not in choice.words
-            else choice.words.index(choice.value)
-            for choice in self._trace.choices
-        }
+        return {choice.path: place(choice) for choice in self._trace.choices}
 
     @property
     def order(self) -> list[tuple[int, int]]:

@@ -22,6 +22,7 @@ from niwaki.lang.compiled import translated
 from niwaki.methods import Emulate
 from niwaki.result.invalid import Invalid
 from niwaki.result.progress import EngineWatch
+from niwaki.result.sample import place
 from niwaki.result.search_like import SearchLike
 from niwaki.search.space import Parameter, Space
 from niwaki.targets.differences import Differences, differences
@@ -264,9 +265,7 @@ def _range(choice: _engine.Choice) -> Any:
 
 def _place(choice: _engine.Choice) -> Any:
     """Return the value of a choice in its range: words with weights are numbered."""
-    if choice.words is None or choice.family == "discrete_uniform":
-        return choice.value
-    return choice.words.index(choice.value) if choice.value in choice.words else choice.value
+    return choice.value if choice.family == "discrete_uniform" else place(choice)
 
 
 def _row(space: Space, search: SearchLike, trace: _engine.Trace) -> list[float]:

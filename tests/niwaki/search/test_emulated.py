@@ -38,6 +38,17 @@ def step_by_step():
         nw.emit(nw.box((0, 0.3 * number, 0), (wide, 0.3, wide)))
 
 
+@nw.model
+def of_weighted_words():
+    wide, deep, tall = nw.uniform(0.8, 2.0), nw.uniform(0.5, 1.2), nw.uniform(0.5, 1.1)
+    form = nw.choose({"roof": 1, "block": 3})
+    nw.emit(
+        nw.box((0, tall / 2, 0), (wide, tall, deep))
+        if form == "block"
+        else nw.wedge((0, tall / 2, 0), (wide, tall, deep))
+    )
+
+
 @nw.host
 def slab(wide: float, y: float):
     return nw.box((0, y, 0), (wide, 0.3, wide))
@@ -98,6 +109,14 @@ def test_few_runs_find_hidden_choices_and_the_result_is_an_ordinary_one():
     assert data["method"] == {"method": "emulate", "evaluations": 60, "diverse": None}
     again = Search.of_json(result.search.json()).run()
     assert again.best.choices == best.choices and again.best.log_score == best.log_score
+
+
+def test_words_with_weights_are_searched():
+    goal = target(of_weighted_words, 3)
+    result = nw.grow(of_weighted_words, goal, rule="none", engine="emulator", evaluations=40, seed=1)
+    assert result.info.choices == 4
+    assert result.best.choices["form"] == nw.run(of_weighted_words, seed=3).best.choices["form"]
+    assert nw.run(of_weighted_words, choices=result.best.choices).best.choices == result.best.choices
 
 
 def test_held_choices_stay_and_several_results_differ():
