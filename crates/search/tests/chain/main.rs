@@ -11,6 +11,8 @@ mod programs;
 mod regrown;
 mod resumed;
 mod scoped;
+#[path = "../support/stopped.rs"]
+mod stopped;
 
 use niwaki_agreement::compare;
 use niwaki_chain::kernel::Kernel;

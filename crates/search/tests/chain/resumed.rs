@@ -5,6 +5,7 @@
 
 use super::mixed::{BRANCHES, MIXTURE, hmc, nuts};
 use super::programs::{PROGRAMS, task};
+use super::stopped::stopped;
 use super::{kernels, settings};
 use niwaki_chain::Settings;
 use niwaki_chain::kernel::Kernel;
@@ -12,8 +13,7 @@ use niwaki_chain::many::Chains;
 use niwaki_geom::{Aabb, no_overshoot, vec3};
 use niwaki_run::Task;
 use niwaki_run::checkpoint::Checkpoint;
-use niwaki_search::improve::Outputs;
-use niwaki_search::method::{Info, Inputs, Method};
+use niwaki_search::method::Info;
 use std::collections::HashMap;
 
 const STEPS: u64 = 240;
@@ -103,24 +103,14 @@ fn trajectories_go_on_with_the_same_bits() {
 
 /// The report of an `improve` and its best choices; it is stopped after `looks` looks, and stored in each round.
 fn improved(task: &Task, left: HashMap<u64, String>, looks: u64) -> (Option<String>, HashMap<u64, String>) {
-    let task = task.uncounted();
-    let text = r#"{"method": "improve", "particles": 20, "regrow": 5, "power": 4.0, "rounds": 12,
-                   "seconds": null, "effort": 1.0, "diverse": null, "proposal": null}"#;
-    let method = Method::read(text).expect("a method");
-    let checkpoint = Checkpoint::of(left);
-    let outputs = Outputs { checkpoint: Some(&checkpoint), ..Outputs::default() };
-    let mut looked = 0;
-    let result = method.search(&task, &Inputs { seed: 3, outputs, ..Inputs::default() }, &mut |_, _, _| {
-        checkpoint.ask();
-        looked += 1;
-        looked <= looks
-    });
-    let result = result.expect("a search");
+    let method = r#"{"method": "improve", "particles": 20, "regrow": 5, "power": 4.0, "rounds": 12,
+                     "seconds": null, "effort": 1.0, "diverse": null, "proposal": null}"#;
+    let (result, stored) = stopped(task, method, left, looks);
     let Info::Improved(info) = result.info else { panic!("of improve") };
     let rounds: Vec<_> =
         info.rounds.iter().map(|round| (round.kind, round.work, round.parts, round.best)).collect();
     let report = format!("{rounds:?} {:?} {:?}", result.runs[0].log, result.runs[0].value);
-    ((!result.interrupted).then_some(report), checkpoint.collect().0)
+    ((!result.interrupted).then_some(report), stored)
 }
 
 #[test]

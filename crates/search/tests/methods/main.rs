@@ -12,4 +12,6 @@ mod annealed;
 mod gradients;
 mod nested;
 mod spending;
+#[path = "../support/stopped.rs"]
+mod stopped;
 mod totals;

@@ -2,12 +2,12 @@
 //!
 //! The host knows two hills, of which the higher one is narrow. A call of it is dear, so that few calls are a floor.
 
+use super::stopped::stopped;
 use niwaki_geom::{Aabb, no_overshoot, vec3};
 use niwaki_run::Task;
-use niwaki_run::checkpoint::Checkpoint;
 use niwaki_run::task::Hosts;
-use niwaki_search::improve::{Improved, Kind, Outputs};
-use niwaki_search::method::{Info, Inputs, Method};
+use niwaki_search::improve::{Improved, Kind};
+use niwaki_search::method::Info;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::passes::compile;
@@ -55,25 +55,15 @@ fn searched(
     left: HashMap<u64, String>,
     looks: u64,
 ) -> (Improved, String, HashMap<u64, String>) {
-    let task = task.uncounted();
-    let text = format!(
+    let method = format!(
         r#"{{"method": "improve", "particles": 20, "regrow": 4, "power": 1.0, {limit}, "seconds": null,
             "diverse": null, "proposal": null}}"#
     );
-    let method = Method::read(&text).expect("a method");
-    let checkpoint = Checkpoint::of(left);
-    let outputs = Outputs { checkpoint: Some(&checkpoint), ..Outputs::default() };
-    let mut looked = 0;
-    let result = method.search(&task, &Inputs { seed: 3, outputs, ..Inputs::default() }, &mut |_, _, _| {
-        checkpoint.ask();
-        looked += 1;
-        looked <= looks
-    });
-    let result = result.expect("a search");
+    let (result, stored) = stopped(task, &method, left, looks);
     let Info::Improved(info) = result.info else { panic!("of improve") };
     let best = &result.runs[0];
     let text = format!("{} {:?} {:?}", best.log_score.to_bits(), best.log, best.value);
-    (info, text, checkpoint.collect().0)
+    (info, text, stored)
 }
 
 fn whole(task: &Task, limit: &str) -> (Improved, String) {
