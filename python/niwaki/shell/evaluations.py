@@ -25,7 +25,7 @@ SIZES = ("particles", "regrow", "rounds", "seconds", "populations")
 PATIENCE, SLOW = 60.0, 0.05
 #: The fewest particles of a population and of a part that is grown again, and the fewest rounds.
 FEWEST, FEWEST_REGROWN, FEWEST_ROUNDS = 12, 4, 3
-#: The rounds of `improve` by default.
+#: The most rounds of `improve` that are given; a search with an effort is expected to make about as many.
 ROUNDS = 15
 #: Runs of the model in a round, counted with small models: of moves, and for each particle of a regrown part.
 MOVED, REGROWN = 5, 2
