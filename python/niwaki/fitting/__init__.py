@@ -12,6 +12,7 @@
 | `commands` | programs that write a mesh file |
 | `discovery` | the parameters of a function that is defined by run, and when they are used |
 | `meshes` | meshes of what a generator returns |
+| `models` | the text of a model that calls a generator, for the studio |
 | `worker`, `pool` | calls in worker processes: what a worker does, and how the parent process drives them |
 | `archive` | all evaluations, in a folder: cache, checkpoint and table |
 | `align` | place, turn and size of a mesh as further parameters |

@@ -14,15 +14,11 @@ import typer
 import niwaki as nw
 from niwaki import targets
 from niwaki.draw import picture
-from niwaki.errors import InputError
 from niwaki.errors.files import write_whole
 from niwaki.errors.folders import held_folder
 from niwaki.fitting.fronts import front_camera
-from niwaki.fitting.functions import FunctionGenerator
 from niwaki.fitting.generator import Generator
 from niwaki.fitting.loading import generator_of
-from niwaki.inputs.modules import run_file
-from niwaki.lang.models import Model
 from niwaki.shell import controls, folders, pictures, settings
 from niwaki.shell.app import Json, Seed, app, counted
 from niwaki.shell.progress import duration, status_line
@@ -79,7 +75,7 @@ def fit(
 
     The same command goes on where it stopped.
     """
-    generator = generator_named(model)
+    generator = generator_of(model)
     score = goal(generator, options)
     folder = None if as_json and output is None else Path(output or f"{generator.name}-fit")
     with status_line(f"fitting {generator.name}") as show:
@@ -105,40 +101,6 @@ def fit(
     if result.interrupted:
         print("stopped: the same command goes on from here", file=sys.stderr)
         raise typer.Exit(130)
-
-
-def generator_named(reference: str) -> Generator:
-    """Return the generator of `file.py:function` or of an OpenSCAD file.
-
-    Raises
-    ------
-    InputError
-        `unknown-model`.
-    """
-    if reference.lower().endswith(".scad"):
-        return generator_of(reference)
-    place, _, name = reference.rpartition(":") if not reference.endswith(".py") else (reference, "", "")
-    if not place.endswith(".py") or not Path(place).is_file():
-        reason = "write file.py:function, or the path of an OpenSCAD file"
-        if place.endswith(".py"):
-            reason = f"there is no file {Path(place).absolute()}"
-        raise InputError("unknown-model", name=reference, reason=reason)
-    module, _ = run_file(Path(place).resolve())
-    functions = {
-        key: value
-        for key, value in vars(module).items()
-        if callable(value) and getattr(value, "__module__", "") == module.__name__ and not key.startswith("_")
-    }
-    if not name and len(functions) == 1:
-        (name,) = functions
-    if name not in functions:
-        listed = ", ".join(functions) or "no function"
-        raise InputError("unknown-model", name=reference, reason=f"{place} defines {listed}")
-    function = functions[name]
-    if isinstance(function, Model):
-        reason = f"`{name}` is a model of Niwaki's own: `niwaki grow {reference}` searches it"
-        raise InputError("unknown-model", name=reference, reason=reason)
-    return FunctionGenerator(function)
 
 
 def goal(generator: Generator, options: dict[str, Any]) -> nw.Score:

@@ -156,6 +156,7 @@ FLAGS = {
     "--workers": ("--workers", "N", "Processes that evaluate."),
     "--limit": ("--limit", "S", "Seconds of one evaluation, until ten are known"),
     "--align": ("--align", None, "Search the place, turn and size of the mesh, too."),
+    "--generator": ("--generator", "GENERATOR", "Write a model that calls a function, file.py:function"),
     "--processes": ("--processes", "N", "Number of worker processes."),
     "--shard": ("--shard", "I/N", "Run only a part of the batch"),
     "--engine": ("--engine", "local|ray|dask", "Engine that runs the searches."),
