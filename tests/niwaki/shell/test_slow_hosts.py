@@ -93,14 +93,14 @@ def test_a_line_has_evaluations_the_best_so_far_and_the_time_left(lines: list[st
 
 
 @nw.host
-def same(x: float) -> float:
+def identity(x: float) -> float:
     return x
 
 
 @nw.model
 def sheds(count: int = 1):
     for k in range(count):
-        height = same(nw.uniform(0.2, 1.0))
+        height = identity(nw.uniform(0.2, 1.0))
         nw.emit(box((k, height / 2, 0), (0.9, height, 0.9)))
         if nw.flip(0.5):
             nw.emit(box((k, height + 0.5, 0), (0.5, 0.9, 0.5)))
