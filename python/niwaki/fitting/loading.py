@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from niwaki.errors import InputError
+from niwaki.fitting.blend import blend
 from niwaki.fitting.commands import CommandGenerator
 from niwaki.fitting.functions import FunctionGenerator
 from niwaki.fitting.generator import Generator
@@ -15,7 +16,7 @@ from niwaki.fitting.openscad import ScadGenerator, scad
 
 
 def generator_of(model: Any) -> Generator:
-    """Return the generator of a function, a file of OpenSCAD, or a generator itself.
+    """Return the generator of a function, a file of OpenSCAD or Blender, or a generator itself.
 
     Raises
     ------
@@ -26,13 +27,15 @@ def generator_of(model: Any) -> Generator:
         return model
     if isinstance(model, str | PathLike) and Path(model).suffix.lower() == ".scad":
         return scad(model)
+    if isinstance(model, str | PathLike) and Path(model).suffix.lower() == ".blend":
+        return blend(model)
     if isinstance(model, Callable) and not isinstance(model, type):  # type: ignore[arg-type]
         return FunctionGenerator(model)
     raise InputError(
         "bad-setting",
         name="model",
         found=repr(model)[:80],
-        expected="a function that returns a mesh, `nw.scad(...)` or `nw.command(...)`",
+        expected="a function that returns a mesh, `nw.scad(...)`, `nw.blend(...)` or `nw.command(...)`",
         suggestion="`nw.fit(bracket, goal)`",
     )
 
