@@ -265,7 +265,7 @@ class BlendGenerator(Generator):
             "parameters": parameters,
         }
 
-    def program(self) -> list[str]:
+    def worker_command(self) -> list[str]:
         """Return the words that run Blender on the script of a worker."""
         return self._program
 

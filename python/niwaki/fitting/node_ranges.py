@@ -4,7 +4,8 @@
 | --- | --- |
 | a number with both limits | from limit to limit |
 | an angle without limits | a whole turn |
-| any other number that lacks a limit | from half of its value to twice it; at 0 from -1 to 1, or 0 to 10 for a whole number |
+| any other number that lacks a limit | from half of its value to twice it |
+| such a number at 0 | from -1 to 1; a whole number from 0 to 10 |
 | a switch | False or True |
 | a menu | its entries |
 
@@ -20,9 +21,7 @@ from typing import Any
 from niwaki.errors.settings import bad
 from niwaki.fitting.in_blender.sockets import Socket
 from niwaki.search.space import MOST_LEVELS, Parameter
-from niwaki.words.distributions import Bernoulli, DiscreteUniform, Distribution
-
-from niwaki.words.distributions import Uniform
+from niwaki.words.distributions import Bernoulli, DiscreteUniform, Distribution, Uniform
 
 #: The usual ranges of numbers that stand at 0 and lack a limit.
 AT_ZERO = {"real": (-1.0, 1.0), "whole": (0.0, 10.0)}
@@ -163,4 +162,4 @@ def _rules(
 
 def _values(range_: Any) -> Sequence[Any]:
     inner = range_.range if isinstance(range_, Parameter) else range_
-    return (False, True) if isinstance(inner, Bernoulli) else tuple(inner)
+    return (False, True) if isinstance(inner, Distribution) else tuple(inner)

@@ -175,7 +175,7 @@ class Workers:
     limit
         The limit of time of a call.
     program
-        The words that start a process of another program; see `Generator.program`.
+        The words that start a process of another program; see `Generator.worker_command`.
     """
 
     def __init__(

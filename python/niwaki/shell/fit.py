@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -17,6 +19,7 @@ from niwaki.draw import picture
 from niwaki.errors import InputError
 from niwaki.errors.files import write_whole
 from niwaki.errors.folders import held_folder
+from niwaki.fitting.blend import blend
 from niwaki.fitting.fronts import front_camera
 from niwaki.fitting.functions import FunctionGenerator
 from niwaki.fitting.generator import Generator
@@ -34,10 +37,18 @@ OPTIONS = (
     *("match_image", "match_shadow", "camera", "weight_image", "weight", "light", "receiver"),
 )
 
+#: A Blender file, perhaps with the names of an object and of its modifier.
+BLEND = re.compile(r"(.*\.blend)(?::([^:]+))?(?::([^:]+))?", re.IGNORECASE)
+
+#: Mesh files in which Blender leaves z up.
+Z_UP = (".stl", ".ply", ".3mf")
+
 ModelFile = Annotated[
     str,
     typer.Argument(
-        metavar="GENERATOR", help="file.py:function, which is run, or an OpenSCAD file: box.scad."
+        metavar="GENERATOR",
+        help="file.py:function, which is run, an OpenSCAD file: box.scad, or a Blender file with Geometry Nodes: "
+        "chair.blend, chair.blend:Object, chair.blend:Object:Modifier.",
     ),
 ]
 
@@ -79,7 +90,7 @@ def fit(
 
     The same command goes on where it stopped.
     """
-    generator = generator_named(model)
+    generator = generator_named(model, up_of(options))
     score = goal(generator, options)
     folder = None if as_json and output is None else Path(output or f"{generator.name}-fit")
     with status_line(f"fitting {generator.name}") as show:
@@ -107,8 +118,21 @@ def fit(
         raise typer.Exit(130)
 
 
-def generator_named(reference: str) -> Generator:
-    """Return the generator of `file.py:function` or of an OpenSCAD file.
+def up_of(options: Mapping[str, Any]) -> str:
+    """Return which axis of a Blender file is up beside the target: z for STL, PLY and 3MF, y for all else."""
+    target = str(options.get("target") or "")
+    return "z" if Path(target).suffix.lower() in Z_UP else "y"
+
+
+def generator_named(reference: str, up: str = "y") -> Generator:
+    """Return the generator of `file.py:function`, of an OpenSCAD file, or of an object of a Blender file.
+
+    Parameters
+    ----------
+    reference
+        The words of the command line.
+    up
+        Which axis of a Blender file is up.
 
     Raises
     ------
@@ -117,9 +141,11 @@ def generator_named(reference: str) -> Generator:
     """
     if reference.lower().endswith(".scad"):
         return generator_of(reference)
+    if match := BLEND.fullmatch(reference):
+        return blend(match[1], match[2], match[3], up=up)
     place, _, name = reference.rpartition(":") if not reference.endswith(".py") else (reference, "", "")
     if not place.endswith(".py") or not Path(place).is_file():
-        reason = "write file.py:function, or the path of an OpenSCAD file"
+        reason = "write file.py:function, or the path of an OpenSCAD or Blender file"
         if place.endswith(".py"):
             reason = f"there is no file {Path(place).absolute()}"
         raise InputError("unknown-model", name=reference, reason=reason)

@@ -5,63 +5,79 @@ output is a line of JSON, then the bytes of a mesh. The first request names the 
 `describe` the answer has the sockets, and the mesh at some values of them; the process then ends.
 """
 
+from __future__ import annotations
+
+import importlib
 import importlib.util
 import json
 import os
 import queue
 import sys
 import threading
+from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
+from typing import IO, Any
 
-import bpy
 import numpy as np
 
 
-def _module(name):
-    """Load a file beside this one, also where the package is missing."""
-    spec = importlib.util.spec_from_file_location(f"niwaki_{name}", Path(__file__).with_name(f"{name}.py"))
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
-
-
-sockets, stage = _module("sockets"), _module("stage")
-
-
 class Model:
-    """A modifier of an object in a file."""
+    """A modifier of an object in a file.
 
-    def __init__(self, recipe):
+    Parameters
+    ----------
+    bpy
+        Blender's module.
+    recipe
+        The file, the names of the object and of the modifier, and which axis is up.
+    """
+
+    def __init__(self, bpy: Any, recipe: Mapping[str, Any]) -> None:
+        self._bpy, self._up = bpy, recipe["up"]
+        self._sockets, self._stage = module("sockets"), module("stage")
         # Scripts and drivers of the file do not run.
         bpy.ops.wm.open_mainfile(filepath=recipe["path"], load_ui=False, use_scripts=False)
-        self.object, self.modifier = sockets.find(bpy.data.objects, recipe["object"], recipe["modifier"])
+        self.object, self.modifier = self._sockets.find(
+            bpy.data.objects, recipe["object"], recipe["modifier"]
+        )
         self.modifier.show_viewport = True
         frame = bpy.context.scene.frame_current
-        self.scene = stage.stage(bpy.data, self.object, "niwaki")
-        self.scene.frame_set(frame)
-        self.rows = sockets.sockets(self.modifier)
-        self.up = recipe["up"]
+        self._scene = self._stage.stage(bpy.data, self.object, "niwaki")
+        self._scene.frame_set(frame)
+        self.rows = self._sockets.sockets(self.modifier)
 
-    def mesh(self, values):
+    def mesh(self, values: Mapping[str, Any]) -> tuple[Any, Any]:
         """Return the mesh for values of sockets by their keys."""
-        sockets.write_all(self.modifier, self.rows, values)
-        vertices, faces = stage.mesh(self.scene, self.object)
+        self._sockets.write_all(self.modifier, self.rows, values)
+        vertices, faces = self._stage.mesh(self._scene, self.object)
         # The rotation of Blender's exporters of glTF and OBJ.
-        return (vertices[:, [0, 2, 1]] * (1.0, 1.0, -1.0) if self.up == "y" else vertices), faces
+        return (vertices[:, [0, 2, 1]] * (1.0, 1.0, -1.0) if self._up == "y" else vertices), faces
 
-    def about(self):
+    def answer(self, values: Mapping[str, Any]) -> tuple[dict[str, Any], bytes]:
+        """Return the head and the bytes of an answer: a mesh, or the text of a failure."""
+        try:
+            vertices, faces = self.mesh(values)
+        except self._stage.NoMeshError as error:
+            return {"failed": str(error)}, b""
+        except Exception as error:
+            return {"failed": f"{type(error).__name__}: {line_of(error)}"}, b""
+        body = np.ascontiguousarray(vertices, "<f8").tobytes() + np.ascontiguousarray(faces, "<i8").tobytes()
+        return {"vertices": len(vertices), "faces": len(faces)}, body
+
+    def about(self) -> dict[str, Any]:
         """Describe the modifier."""
+        files = [self._bpy.path.abspath(library.filepath) for library in self._bpy.data.libraries]
         return {
             "object": self.object.name,
             "modifier": self.modifier.name,
             "sockets": [vars(row) for row in self.rows],
-            "libraries": [bpy.path.abspath(library.filepath) for library in bpy.data.libraries],
-            "blender": bpy.app.version_string,
+            "libraries": files,
+            "blender": self._bpy.app.version_string,
         }
 
 
-def serve():
+def serve() -> None:
     """Serve the requests of the parent process, and end with it."""
     requests, answers = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     # Blender neither reads requests nor writes between answers.
@@ -69,25 +85,26 @@ def serve():
     os.dup2(2, 1)
     recipe = json.loads(requests.readline())
     try:
-        model = Model(recipe)
+        model = Model(importlib.import_module("bpy"), recipe)
         if "describe" in recipe:
-            _write(answers, *_mesh(model, _values(recipe, recipe["describe"]), model.about()))
-            _end(0)
-    except sockets.NodeTreeError as error:
-        _write(answers, {"unloadable": str(error), "reason": error.reason, "cure": error.cure})
-        _end(1)
+            head, body = model.answer(values_of(recipe, recipe["describe"]))
+            write(answers, {**model.about(), **head}, body)
+            os._exit(0)
     except BaseException as error:
-        _write(answers, {"unloadable": " ".join(str(error).split()), "type": type(error).__name__})
-        _end(1)
-    _write(answers, {"ready": True})
-    waiting = queue.Queue()
-    threading.Thread(target=_follow, args=(requests, waiting), daemon=True).start()
+        # What the person can change has a reason and a cure.
+        row = {name: getattr(error, name) for name in ("reason", "cure") if hasattr(error, name)}
+        write(answers, {"unloadable": line_of(error), **row})
+        os._exit(1)
+    write(answers, {"ready": True})
+    waiting: queue.Queue[Mapping[str, Any]] = queue.Queue()
+    threading.Thread(target=follow, args=(requests, waiting), daemon=True).start()
     while True:
         request = waiting.get()
-        _write(answers, *_mesh(model, _values(recipe, request["numbers"]), {"key": request["key"]}))
+        head, body = model.answer(values_of(recipe, request["numbers"]))
+        write(answers, {"key": request["key"], **head}, body)
 
 
-def _values(recipe, numbers):
+def values_of(recipe: Mapping[str, Any], numbers: Mapping[str, float]) -> dict[str, Any]:
     """Return values by the keys of sockets: of a choice by its place, of a number the number itself."""
     out = dict(recipe["kept"])
     for name, number in numbers.items():
@@ -96,36 +113,37 @@ def _values(recipe, numbers):
     return out
 
 
-def _mesh(model, values, head):
-    """Return the head and the bytes of an answer: a mesh, or the text of a failure."""
-    try:
-        vertices, faces = model.mesh(values)
-    except stage.NoMeshError as error:
-        return {**head, "failed": str(error)}, b""
-    except Exception as error:
-        return {**head, "failed": f"{type(error).__name__}: {' '.join(str(error).split())}"}, b""
-    body = np.ascontiguousarray(vertices, "<f8").tobytes() + np.ascontiguousarray(faces, "<i8").tobytes()
-    return {**head, "vertices": len(vertices), "faces": len(faces)}, body
-
-
-def _write(answers, head, body=b""):
+def write(answers: IO[bytes], head: Mapping[str, Any], body: bytes = b"") -> None:
+    """Write an answer as `niwaki.fitting.protocol` does."""
     answers.write(json.dumps({**head, "bytes": len(body)}).encode() + b"\n" + body)
-    try:
+    with suppress(BrokenPipeError):
         answers.flush()
-    except BrokenPipeError:
-        pass
 
 
-def _follow(requests, waiting):
+def follow(requests: IO[bytes], waiting: queue.Queue[Mapping[str, Any]]) -> None:
     """Hand requests over; end this process with the parent process."""
     for line in requests:
         waiting.put(json.loads(line))
-    _end(0)
+    # Blender's own end takes long, and does nothing that matters here.
+    os._exit(0)
 
 
-def _end(code):
-    # Blender's own end takes seconds, and asks nothing that matters here.
-    os._exit(code)
+def line_of(error: BaseException) -> str:
+    """Return the text of an error in one line."""
+    return " ".join(str(error).split()) or type(error).__name__
 
 
-serve()
+def module(name: str) -> Any:
+    """Load a file beside this one, also where the package is missing."""
+    full = f"niwaki_{name}"
+    if full not in sys.modules:
+        spec = importlib.util.spec_from_file_location(full, Path(__file__).with_name(f"{name}.py"))
+        assert spec is not None and spec.loader is not None
+        loaded = importlib.util.module_from_spec(spec)
+        sys.modules[full] = loaded
+        spec.loader.exec_module(loaded)
+    return sys.modules[full]
+
+
+if __name__ == "__main__":
+    serve()

@@ -168,7 +168,7 @@ def sockets(modifier: Any) -> list[Socket]:
     """
     items = [item for item in _inputs(modifier.node_group) if item.socket_type in KINDS]
     items = [item for item in items if not item.hide_in_modifier and not _reads_attribute(modifier, item)]
-    discrete = {
+    discrete: dict[str, list[Any]] = {
         item.identifier: [False, True]
         if item.socket_type == "NodeSocketBool"
         else entries(modifier, item.identifier)
