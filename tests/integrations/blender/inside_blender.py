@@ -22,7 +22,6 @@ import pytest
 from bpy_extras.object_utils import world_to_camera_view
 from mathutils import Vector
 
-HOME = os.environ["BLENDER_USER_RESOURCES"]
 ZIP = Path(os.environ["NIWAKI_ZIP"]).resolve()
 PICTURES = os.environ.get("NIWAKI_PICTURES")
 
@@ -30,26 +29,8 @@ PICTURES = os.environ.get("NIWAKI_PICTURES")
 MODEL = Path(__file__).with_name("marked_tower.txt").read_text()
 
 
-@pytest.fixture(scope="session", autouse=True)
-def installed() -> None:
-    """Install the extension as a user does."""
-    # `bpy` provides this module.
-    import addon_utils
-
-    addon_utils.enable("bl_pkg")
-    with pytest.raises(ImportError):
-        import niwaki
-    done = bpy.ops.extensions.package_install_files(
-        filepath=str(ZIP), repo="user_default", enable_on_install=True
-    )
-    assert done == {"FINISHED"}
-    import niwaki
-
-    assert Path(niwaki.__file__).is_relative_to(HOME)
-
-
 @pytest.fixture(autouse=True)
-def scene() -> bpy.types.Scene:
+def scene(installed: None) -> bpy.types.Scene:
     """An empty scene with a short search."""
     bpy.ops.wm.read_homefile(use_empty=True)
     inside().permissions.forget()

@@ -161,10 +161,17 @@ def is_node_tree(modifier: Any) -> bool:
     return modifier.type == "NODES" and modifier.node_group is not None
 
 
-def sockets(modifier: Any) -> list[Socket]:
+def sockets(modifier: Any, follow: bool = True) -> list[Socket]:
     """Return the numbers, switches and menus that a person can set in a modifier, in its order.
 
     A socket that reads an attribute, or that the modifier hides, is left out.
+
+    Parameters
+    ----------
+    modifier
+        The modifier.
+    follow
+        Whether to follow the tree; otherwise all sockets count as used always.
     """
     items = [item for item in _inputs(modifier.node_group) if item.socket_type in KINDS]
     items = [item for item in items if not item.hide_in_modifier and not _reads_attribute(modifier, item)]
@@ -175,7 +182,8 @@ def sockets(modifier: Any) -> list[Socket]:
         for item in items
         if item.socket_type in ("NodeSocketBool", "NodeSocketMenu")
     }
-    uses = conditions(modifier.node_group, discrete)
+    always: dict[str, list[Rule]] = {item.identifier: [] for item in items}
+    uses = conditions(modifier.node_group, discrete) if follow else always
     names = _names(items)
     rows = []
     for item in items:
@@ -249,6 +257,8 @@ def write_all(modifier: Any, rows: Iterable[Socket], values: Mapping[str, Any]) 
             write(modifier, row.identifier, float(value) if row.kind == "real" else round(value))
     for identifier, vector in vectors.items():
         write(modifier, identifier, vector)
+    # Blender does not see that a custom property has changed.
+    modifier.id_data.update_tag()
 
 
 def conditions(tree: Any, discrete: Mapping[str, list[Any]]) -> dict[str, list[Rule]]:

@@ -45,7 +45,6 @@ def mesh(scene: Any, obj: Any) -> Arrays:
     NoMeshError
         There are points, curves or volumes, and no triangle.
     """
-    obj.update_tag()
     layer = scene.view_layers[0]
     layer.update()
     parts, others = [], set()
