@@ -168,8 +168,8 @@ class Settings(bpy.types.PropertyGroup):
         if self.target is not None:
             goals["target"] = conversion.mesh(self.target, context).target(origin)
         if self.obstacles is not None:
-            others = [obj for obj in self.obstacles.all_objects if obj not in (self.target, but)]
-            meshes = [obj for obj in others if obj.type == "MESH"]
+            meshes = [obj for obj in self.obstacles.all_objects if obj not in (self.target, but)]
+            meshes = [obj for obj in meshes if obj.type == "MESH"]
             goals["avoid"] = [conversion.mesh(obj, context).target(origin) for obj in meshes]
         if self.use_floor:
             goals["floor"] = self.floor - origin[2]

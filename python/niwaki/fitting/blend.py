@@ -96,7 +96,7 @@ def blend(
     return BlendGenerator(Path(path), object, modifier, held, ranges, up, find_blender(path, blender))
 
 
-def find_blender(path: str | PathLike[str], given: str | PathLike[str] | None = None) -> list[str]:
+def find_blender(path: str | PathLike[str], blender: str | PathLike[str] | None = None) -> list[str]:
     """Return the words that run Blender on the script of a worker.
 
     Raises
@@ -104,7 +104,7 @@ def find_blender(path: str | PathLike[str], given: str | PathLike[str] | None = 
     InputError
         `no-blender`.
     """
-    name = os.fspath(given) if given is not None else os.environ.get(VARIABLE, "")
+    name = os.fspath(blender) if blender is not None else os.environ.get(VARIABLE, "")
     if name:
         program = shutil.which(name)
         if program is None:
@@ -149,7 +149,7 @@ class BlendGenerator(Generator):
         self.sockets: list[Socket] = []
         self.kept: dict[str, Any] = {}
         self.space = None
-        head, _ = self._asked({})
+        head, _ = self._reply({})
         if "reason" in head:
             raise InputError("bad-node-tree", name=path.name, reason=head["reason"], cure=head["cure"])
         if "unloadable" in head:
@@ -158,11 +158,11 @@ class BlendGenerator(Generator):
         self.name = f"{path.stem}-{self.object}"
         self._libraries = [place for place in head["libraries"] if Path(place).is_file()]
         self.sockets = [Socket(**row) for row in head["sockets"]]
-        given = {}
+        values = {}
         for name, value in {**held, **ranges}.items():
             row = self._named(name)
-            given[row.name] = row.value if name in held and value is None else value
-        self.space = Space(self._space(given))
+            values[row.name] = row.value if name in held and value is None else value
+        self.space = Space(self._space(values))
 
     def _named(self, name: str) -> Socket:
         """Return a socket by the name that a person writes."""
@@ -181,22 +181,22 @@ class BlendGenerator(Generator):
             )
         return rows[0]
 
-    def _space(self, given: Mapping[str, Any]) -> dict[str, Parameter]:
+    def _space(self, values: Mapping[str, Any]) -> dict[str, Parameter]:
         """Return the parameters: the sockets that the tree uses, with the ranges that a person gives to some."""
         ranges: dict[str, Any] = {}
         for row in self.sockets:
-            range_ = given.get(row.name, usual_range(row) if row.is_used else None)
+            range_ = values.get(row.name, usual_range(row) if row.is_used else None)
             if isinstance(range_, Distribution | Parameter | list | tuple | range):
                 ranges[row.name] = given_range(row, range_)
-            elif row.name in given:
+            elif row.name in values:
                 self.kept[row.key] = kept_value(row, range_)
         parameters = parameters_of(self.sockets, ranges, self.kept)
         if not parameters:
             cure = "link a socket of the group's input to what makes the mesh, or hold fewer of them"
-            raise InputError("no-ranges", name=self.path.name, reason=self._nothing(), cure=cure)
+            raise InputError("no-ranges", name=self.path.name, reason=self._lack(), cure=cure)
         return parameters
 
-    def _nothing(self) -> str:
+    def _lack(self) -> str:
         if not self.sockets:
             return f"the modifier `{self.modifier}` has no number, switch or menu"
         if not any(row.is_used for row in self.sockets):
@@ -205,14 +205,14 @@ class BlendGenerator(Generator):
 
     def call(self, numbers: Numbers) -> Called:
         """Open the file in Blender for this call alone; a search has worker processes that keep it open."""
-        head, body = self._asked(numbers)
+        head, body = self._reply(numbers)
         if "failed" in head or "unloadable" in head:
             raise RuntimeError(head.get("failed") or head["unloadable"])
         cut = 24 * head["vertices"]
         vertices, faces = np.frombuffer(body[:cut], "<f8"), np.frombuffer(body[cut:], "<i8")
         return Called((vertices.reshape(-1, 3), faces.reshape(-1, 3)))
 
-    def _asked(self, numbers: Numbers) -> tuple[dict[str, Any], bytes]:
+    def _reply(self, numbers: Numbers) -> tuple[dict[str, Any], bytes]:
         """Have Blender open the file, describe the modifier, and make the mesh of a point."""
         recipe = {**self.recipe(), "describe": dict(numbers)}
         environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}

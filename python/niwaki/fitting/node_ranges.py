@@ -59,7 +59,7 @@ def _usual_ends(row: Socket) -> tuple[float, float]:
     return low, high
 
 
-def given_range(row: Socket, given: Any) -> Any:
+def given_range(row: Socket, wish: Any) -> Any:
     """Return the range that a person gives to a socket.
 
     Raises
@@ -68,17 +68,17 @@ def given_range(row: Socket, given: Any) -> Any:
         `bad-setting`: the output does not depend on the socket, or it cannot have these values.
     """
     if not row.is_used:
-        raise bad(row.name, given, "a socket on which the output of the node tree depends", "another socket")
-    inner = given.range if isinstance(given, Parameter) else given
+        raise bad(row.name, wish, "a socket on which the output of the node tree depends", "another socket")
+    inner = wish.range if isinstance(wish, Parameter) else wish
     if not isinstance(inner, Distribution):
         for value in inner:
             kept_value(row, value)
     elif row.kind in ("switch", "menu") and not (row.kind == "switch" and isinstance(inner, Bernoulli)):
         expected = "`Bernoulli(p)`" if row.kind == "switch" else "a list of its entries"
         raise bad(
-            row.name, given, expected, "`nw.Bernoulli(0.5)`" if row.kind == "switch" else str(row.entries)
+            row.name, wish, expected, "`nw.Bernoulli(0.5)`" if row.kind == "switch" else str(row.entries)
         )
-    return given
+    return wish
 
 
 def kept_value(row: Socket, value: Any) -> Any:

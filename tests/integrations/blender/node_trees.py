@@ -28,9 +28,9 @@ class Tree:
     def socket(self, name: str, kind: str, value: Any = None, low: Any = None, high: Any = None) -> Any:
         """Add an input; return its output of the group's input node."""
         item = self.group.interface.new_socket(name, in_out="INPUT", socket_type=f"NodeSocket{kind}")
-        for attribute, given in (("min_value", low), ("max_value", high), ("default_value", value)):
-            if given is not None:
-                setattr(item, attribute, given)
+        for attribute, number in (("min_value", low), ("max_value", high), ("default_value", value)):
+            if number is not None:
+                setattr(item, attribute, number)
         return next(output for output in self.inputs.outputs if output.identifier == item.identifier)
 
     def link(self, value: Any, socket: Any) -> None:

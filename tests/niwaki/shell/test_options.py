@@ -179,7 +179,7 @@ WORDS = {
     "MODELS": "The folder of the models.",
     "FOLDER": "The folder of a batch.",
     "FILE": "The file of a guide.",
-    "GENERATOR": "file.py:function, which is run, or an OpenSCAD file",
+    "GENERATOR": "file.py:function, which is run, an OpenSCAD file",
     "[MODEL.PY]...": "Files of models",
 }
 

@@ -1,4 +1,4 @@
-"""What runs inside of Blender: node trees as models. Blender's Python need not have Niwaki.
+"""Node trees as models: the part that runs inside of Blender. Blender's Python need not have Niwaki.
 
 | module | contents |
 | --- | --- |

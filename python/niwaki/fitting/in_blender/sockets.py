@@ -281,7 +281,7 @@ def conditions(tree: Any, discrete: Mapping[str, list[Any]]) -> dict[str, list[R
         walk.output(None, tree, None, frozenset())
     except _TooManyError:
         return {item.identifier: [] for item in _inputs(tree)}
-    return {identifier: _rules(found, discrete) for identifier, found in walk.found.items()}
+    return {identifier: _rules(literals, discrete) for identifier, literals in walk.uses.items()}
 
 
 class _TooManyError(Exception):
@@ -296,7 +296,7 @@ class _Walk:
 
     def __init__(self, discrete: Mapping[str, list[Any]]) -> None:
         self.discrete = discrete
-        self.found: dict[str, list[_Literals]] = {}
+        self.uses: dict[str, list[_Literals]] = {}
         self._seen: dict[Any, list[_Literals]] = {}
         self._visits = 0
 
@@ -329,7 +329,7 @@ class _Walk:
 
     def _group_input(self, frame: Any, socket: Any, when: _Literals) -> None:
         if frame is None:
-            self.found.setdefault(socket.identifier, []).append(when)
+            self.uses.setdefault(socket.identifier, []).append(when)
             return
         outer, group = frame
         for entry in group.inputs:
@@ -395,10 +395,10 @@ def _key(frame: Any) -> Any:
     return None if frame is None else (_key(frame[0]), frame[1].name)
 
 
-def _rules(found: Iterable[_Literals], discrete: Mapping[str, list[Any]]) -> list[Rule]:
+def _rules(uses: Iterable[_Literals], discrete: Mapping[str, list[Any]]) -> list[Rule]:
     """Simplify conditions of which one must hold; an empty list if one of them always does."""
     rules: list[dict[str, frozenset[Any]]] = []
-    for literals in found:
+    for literals in uses:
         rule = {name: frozenset([value]) for name, value in literals}
         if rule not in rules:
             rules.append(rule)

@@ -16,7 +16,7 @@ Arrays = tuple[NDArray[np.float64], NDArray[np.int64]]
 FACED = ("MESH", "CURVE", "SURFACE", "FONT", "META")
 
 #: What an object can give beside a mesh, by Blender's types, with the nodes that make a mesh of it.
-OTHERS = {
+WITHOUT_FACES = {
     "POINTCLOUD": ("points", "Instance on Points"),
     "CURVE": ("curves", "Curve to Mesh"),
     "CURVES": ("curves", "Curve to Mesh"),
@@ -47,7 +47,7 @@ def mesh(scene: Any, obj: Any) -> Arrays:
     """
     layer = scene.view_layers[0]
     layer.update()
-    parts, others = [], set()
+    parts, kinds = [], set()
     for instance in layer.depsgraph.object_instances:
         source = instance.parent if instance.is_instance else instance.object
         if source is None or source.original != obj:
@@ -57,10 +57,10 @@ def mesh(scene: Any, obj: Any) -> Arrays:
             if len(part[1]):
                 parts.append(part)
                 continue
-        others.add(instance.object.type)
+        kinds.add(instance.object.type)
     if not parts:
-        for kind, (word, node) in OTHERS.items():
-            if kind in others:
+        for kind, (word, node) in WITHOUT_FACES.items():
+            if kind in kinds:
                 raise NoMeshError(f"the modifier gives {word} and no mesh: end it with a node such as {node}")
         return np.zeros((0, 3)), np.zeros((0, 3), np.int64)
     starts = np.cumsum([0, *(len(points) for points, _ in parts)])
