@@ -9,11 +9,8 @@ import pytest
 
 sys.path.append(str(Path(__file__).parent))
 
-collect_ignore = (
-    []
-    if find_spec("bpy")
-    else ["inside_blender.py", "meshes_in_blender.py", "fits_in_blender.py", "node_trees.py"]
-)
+BPY = ("inside_blender", "meshes_in_blender", "fits_in_blender", "layouts", "node_trees", "rendering")
+collect_ignore = [] if find_spec("bpy") else [f"{name}.py" for name in BPY]
 
 
 @pytest.fixture(scope="session")

@@ -14,9 +14,11 @@ from types import SimpleNamespace
 from typing import Any
 
 import bpy
+import layouts
 import node_trees
 import numpy as np
 import pytest
+import rendering
 
 PICTURES = os.environ.get("NIWAKI_PICTURES")
 
@@ -43,7 +45,9 @@ def scene(installed: None) -> bpy.types.Scene:
 def extension() -> Any:
     """The extension's modules."""
     from bl_ext.user_default import niwaki as modules
+    from bl_ext.user_default.niwaki import fit_operators, fitting, modifiers, operators, panel, placement
 
+    del fit_operators, fitting, modifiers, operators, panel, placement
     return modules
 
 
@@ -229,13 +233,41 @@ def test_ten_answers_stand_in_a_grid_and_one_is_taken(scene: bpy.types.Scene) ->
     assert values(modifier) == values(copies[-1].modifiers[0]) and values(modifier)[
         "Seat Width"
     ] == pytest.approx(0.7)
-    render(obj, copies)
 
 
-def render(obj: bpy.types.Object, copies: list[bpy.types.Object]) -> None:
-    """Render the target and the answers into the manual's folder."""
-    if PICTURES is None:
-        return
+@pytest.mark.skipif(PICTURES is None, reason="no folder of pictures")
+def test_the_picture_shows_a_target_and_ten_answers(scene: bpy.types.Scene) -> None:
+    obj, modifier, target = chair_and_target()
+    obj.location, obj.rotation_euler = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    target.matrix_world = obj.matrix_basis
+    scene.niwaki_settings.evaluations = 150
+    bpy.context.view_layer.update()
+    assert bpy.ops.niwaki.fit(count=10) == {"FINISHED"}
+    copies = list(bpy.data.collections["Chair fits"].objects)
+    obj.hide_render = True
+    target.data.materials.clear()
+    target.data.materials.append(rendering.material("target", (0.1, 0.3, 0.6)))
+    wood = rendering.material("wood", (0.55, 0.3, 0.12))
+    end = modifier.node_group
+    paint, output = (
+        end.nodes.new("GeometryNodeSetMaterial"),
+        next(n for n in end.nodes if n.bl_idname == "NodeGroupOutput"),
+    )
+    paint.inputs["Material"].default_value = wood
+    link = output.inputs[0].links[0]
+    source = link.from_socket
+    end.links.remove(link)
+    end.links.new(source, paint.inputs["Geometry"])
+    end.links.new(paint.outputs[0], output.inputs[0])
+    bpy.context.view_layer.update()
+    graph = bpy.context.evaluated_depsgraph_get()
+    rows = [
+        np.array([o.matrix_world @ v.co for v in o.evaluated_get(graph).data.vertices])
+        for o in [target, *copies]
+    ]
+    place = Path(str(PICTURES)) / "blender-fit.png"
+    rendering.render(place, np.concatenate(rows), (560, 334), tilt=1.0, colors=64)
+    assert place.stat().st_size < 80_000
 
 
 def test_a_held_socket_keeps_its_value(scene: bpy.types.Scene) -> None:
@@ -338,6 +370,8 @@ def test_a_button_works_between_events_and_esc_keeps_the_best(scene: bpy.types.S
     shown = False
     while (state := button.modal(context, SimpleNamespace(type="TIMER"))) == {"PASS_THROUGH"}:
         assert values(modifier) == before and "of 80" in modules.operators.running().progress()
+        panels = layouts.drawn(modules.panel.NIWAKI_PT_fit, ("_sockets", "_answer"))
+        assert "operator niwaki.cancel" in panels and "operator niwaki.fit " not in panels
         shown = shown or modules.placement.BEST in bpy.data.objects
         if key == "ESC" and shown:
             bpy.ops.niwaki.cancel()
@@ -372,3 +406,21 @@ def test_missing_settings_give_a_message(scene: bpy.types.Scene) -> None:
             bpy.ops.niwaki.fit()
         setattr(settings, name, old)
     assert json.loads(obj.get("niwaki_held_sockets", "{}")) == {}
+
+
+def test_the_panel_shows_sockets_progress_and_the_active_answer(scene: bpy.types.Scene) -> None:
+    modules = extension()
+
+    def drawn() -> str:
+        return layouts.drawn(modules.panel.NIWAKI_PT_fit, ("_sockets", "_answer"))
+
+    assert "prop fit_object" in drawn() and "operator niwaki.fit" in drawn()
+    _, _, target = chair_and_target()
+    bpy.ops.niwaki.hold_socket(socket="Leg")
+    assert "operator niwaki.hold_socket Leg LOCKED" in drawn() and "Seat Width UNLOCKED" in drawn()
+    scene.niwaki_settings.evaluations = 20
+    bpy.ops.niwaki.fit(count=2)
+    bpy.context.view_layer.objects.active = bpy.data.collections["Chair fits"].objects[0]
+    assert "label Chair #0" in drawn() and "operator niwaki.take" in drawn() and "covered" in drawn()
+    scene.niwaki_settings.fit_object = target
+    assert "has no Geometry Nodes modifier" in drawn()
