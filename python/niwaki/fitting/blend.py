@@ -24,12 +24,14 @@ import numpy as np
 
 from niwaki.errors import InputError
 from niwaki.errors.settings import bad
+from niwaki.errors.warned import warn
 from niwaki.fitting.generator import Called, Generator, Numbers
 from niwaki.fitting.in_blender.sockets import Socket
 from niwaki.fitting.node_ranges import given_range, kept_value, parameters_of, usual_range
 from niwaki.fitting.protocol import read_answer
 from niwaki.inputs import regular
 from niwaki.search.space import Parameter, Space
+from niwaki.search.warnings import SearchWarning
 from niwaki.words.distributions import Distribution
 
 #: The variable that names Blender, and where it may lie beside the search path.
@@ -87,6 +89,11 @@ def blend(
         name is none of the modifier's.
     FileError
         The file cannot be read.
+
+    Warns
+    -----
+    SearchWarning
+        Drivers or scripts of the file did not run.
     """
     if up not in ("y", "z"):
         raise bad("up", up, '"y" or "z"', '"z"')
@@ -156,6 +163,12 @@ class BlendGenerator(Generator):
             raise InputError("blender-failed", name=path.name, reason=head["unloadable"])
         self.object, self.modifier, self.version = head["object"], head["modifier"], head["blender"]
         self.name = f"{path.stem}-{self.object}"
+        if head.get("blocked"):
+            warn(
+                f"`{path.name}` has code that did not run: {head['blocked']}. What it computes keeps its values of the "
+                "file",
+                SearchWarning,
+            )
         self._libraries = [place for place in head["libraries"] if Path(place).is_file()]
         self.sockets = [Socket(**row) for row in head["sockets"]]
         values = {}

@@ -34,6 +34,13 @@ HIDDEN = {
 }
 NEAR = 0.02
 
+#: Blender as a module in the place of the program.
+PROGRAM = """#!/bin/sh
+echo "Blender 4.2.0 LTS"
+test "$1 $2 $3" = "--background --factory-startup --python" || exit 9
+exec {python} -c "import bpy, runpy, sys; runpy.run_path(sys.argv[1], run_name='__main__')" "$4"
+"""
+
 
 @pytest.fixture(autouse=True)
 def scene(installed: None) -> bpy.types.Scene:
@@ -140,7 +147,11 @@ def test_a_file_is_fitted_in_worker_processes(tmp_path: Path) -> None:
     bpy.ops.wm.save_as_mainfile(filepath=str(place))
     with pytest.raises(nw.errors.InputError, match="name one of Chair, Table"):
         nw.blend(place, blender=sys.executable)
-    model = nw.blend(place, "Chair", blender=sys.executable, hold={"Stand": "Pedestal"})
+    # A program with Blender's words and greeting.
+    program = tmp_path / "blender"
+    program.write_text(PROGRAM.format(python=sys.executable))
+    program.chmod(0o755)
+    model = nw.blend(place, "Chair", blender=program, hold={"Stand": "Pedestal"})
     assert "Leg" not in model.space.names and model.space.axis("Column").when == ()
     target = nw.Target(
         *model.call(

@@ -12,6 +12,7 @@ from types import SimpleNamespace
 
 import niwaki as nw
 import pytest
+import trimesh
 from niwaki.errors import FileError, InputError
 from niwaki.fitting import node_ranges
 from niwaki.fitting.blend import find_blender
@@ -312,8 +313,13 @@ def test_what_blender_says_of_a_file_reaches_the_person(place, tmp_path):
         nw.blend(place)
 
 
-def test_the_command_names_an_object_and_takes_the_axis_of_its_target(place):
-    model = shell.generator_named(f"{place}:Box:Nodes", "z")
-    assert (model.name, model.up) == ("box-Box", "z")
-    for target, up in (("a.stl", "z"), ("a.PLY", "z"), ("a.glb", "y"), ("a.obj", "y"), (None, "y")):
-        assert shell.up_of({"target": target}) == up
+def test_the_command_names_an_object_and_stands_targets_up(place):
+    model = shell.generator_named(f"{place}:Box:Nodes", ["my fate=well", "Width"])
+    assert (model.name, model.up, model.kept) == ("box-Box", "y", {"Socket_1": 1.0, "Socket_3": "well"})
+    with pytest.raises(InputError, match="a Blender file, whose sockets"):
+        shell.generator_named("box.py:box", ["width=3"])
+    block = nw.Target.of_shapes(nw.box((1.0, 0.5, 2.0), (2.0, 1.0, 4.0)))
+    for name, size in (("a.stl", [2.0, 4.0, 1.0]), ("a.obj", [2.0, 1.0, 4.0])):
+        trimesh.Trimesh(block.vertices, block.faces).export(place.with_name(name))
+        score = shell.goal(model, {"target": str(place.with_name(name))})
+        assert score.target.size.tolist() == pytest.approx(size)

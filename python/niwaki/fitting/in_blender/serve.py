@@ -74,6 +74,7 @@ class Model:
             "sockets": [vars(row) for row in self.rows],
             "libraries": files,
             "blender": self._bpy.app.version_string,
+            "blocked": self._bpy.app.autoexec_fail_message if self._bpy.app.autoexec_fail else "",
         }
 
 

@@ -71,6 +71,8 @@ def mesh(scene: Any, obj: Any) -> Arrays:
 def _triangles(evaluated: Any, matrix: NDArray[np.float64]) -> Arrays:
     """Read the triangles of an evaluated object, placed by a matrix."""
     data = evaluated.to_mesh()
+    if data is None:
+        return np.zeros((0, 3)), np.zeros((0, 3), np.int64)
     try:
         data.calc_loop_triangles()
         vertices = np.empty(3 * len(data.vertices), dtype=np.float32)
