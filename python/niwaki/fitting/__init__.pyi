@@ -3,6 +3,7 @@ from .answers import Answer as Answer
 from .answers import Answers as Answers
 from .answers import Effect as Effect
 from .answers import Interval as Interval
+from .blend import blend as blend
 from .commands import command as command
 from .draws import Draws as Draws
 from .entry import FitProgress as FitProgress

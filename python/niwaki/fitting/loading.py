@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
 from niwaki.errors import InputError
+from niwaki.fitting.blend import blend
 from niwaki.fitting.commands import CommandGenerator
 from niwaki.fitting.functions import FunctionGenerator
 from niwaki.fitting.generator import Generator
 from niwaki.fitting.openscad import ScadGenerator, scad
 from niwaki.inputs.modules import run_file
 from niwaki.lang.models import Model
+
+#: A Blender file, with its object and its modifier.
+BLEND = re.compile(r"(.*\.blend)(?::([^:]+))?(?::([^:]+))?", re.IGNORECASE)
 
 
 def generator_of(model: Any) -> Generator:
@@ -22,7 +27,8 @@ def generator_of(model: Any) -> Generator:
     Parameters
     ----------
     model
-        A function that returns a mesh, the path of an OpenSCAD file, `file.py:function`, or a generator itself.
+        A function that returns a mesh; the path of an OpenSCAD file; `file.py:function`; a Blender file, with y up, and
+        perhaps its object and modifier: `chair.blend:Chair:Legs`; or a generator itself.
 
     Raises
     ------
@@ -39,7 +45,7 @@ def generator_of(model: Any) -> Generator:
         "bad-setting",
         name="model",
         found=repr(model)[:80],
-        expected="a function that returns a mesh, `nw.scad(...)` or `nw.command(...)`",
+        expected="a function that returns a mesh, `nw.scad(...)`, `nw.blend(...)` or `nw.command(...)`",
         suggestion="`nw.fit(bracket, goal)`",
     )
 
@@ -47,9 +53,11 @@ def generator_of(model: Any) -> Generator:
 def _in_file(reference: str) -> Generator:
     if reference.lower().endswith(".scad"):
         return scad(reference)
+    if match := BLEND.fullmatch(reference):
+        return blend(*match.groups(), up="y")
     place, _, name = reference.rpartition(":") if not reference.endswith(".py") else (reference, "", "")
     if not place.endswith(".py") or not Path(place).is_file():
-        reason = "write file.py:function, or the path of an OpenSCAD file"
+        reason = "write file.py:function, or the path of an OpenSCAD or Blender file"
         if place.endswith(".py"):
             reason = f"there is no file {Path(place).absolute()}"
         raise InputError("unknown-model", name=reference, reason=reason)

@@ -144,9 +144,7 @@ class Worker:
     def _timeout(self) -> Problem:
         """Report a job or a file that took too long."""
         if not self._loading.path:
-            text = (
-                f"this took more than {self.patience:.0f} s and was ended; a fresh process takes its place"
-            )
+            text = f"this took more than {self.patience:.0f} s and was ended; a fresh process takes its place"
             return Problem("too-slow", text)
         if self._stamp is not None:
             self._slow[self._loading.path] = self._stamp

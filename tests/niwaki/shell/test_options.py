@@ -67,7 +67,11 @@ FLAGS = {
     "--from": ("--from", "RUN.JSON", "A result to start from"),
     "--result": ("--result", "RUN.JSON", "A result of the model"),
     "--run": ("--run", "N", "Number of the result"),
-    "--hold": ("--hold", "PATTERN|NAME=VALUE", "Hold the parts of the result of --from"),
+    "--hold": (
+        "--hold",
+        "PATTERN|NAME=VALUE",
+        ("Hold the parts of the result of --from", "Hold the socket NAME of a Blender file"),
+    ),
     "--reroll": ("--reroll", "PATTERN", "Grow the parts again that match PATTERN"),
     # What a scene should be like.
     "--target": ("--target", "FILE", "A mesh to fill"),
@@ -180,7 +184,7 @@ WORDS = {
     "MODELS": "The folder of the models.",
     "FOLDER": "The folder of a batch.",
     "FILE": "The file of a guide.",
-    "GENERATOR": "file.py:function, which is run, or an OpenSCAD file",
+    "GENERATOR": "file.py:function, which is run, an OpenSCAD file",
     "[MODEL.PY]...": "Files of models",
 }
 
