@@ -162,7 +162,8 @@ class BlendGenerator(Generator):
         if "unloadable" in head:
             raise InputError("blender-failed", name=path.name, reason=head["unloadable"])
         self.object, self.modifier, self.version = head["object"], head["modifier"], head["blender"]
-        self.name = f"{path.stem}-{self.object}"
+        # A folder may have this name.
+        self.name = re.sub(r"[^\w. -]", "_", f"{path.stem}-{self.object}")
         if head.get("blocked"):
             warn(
                 f"`{path.name}` has code that did not run: {head['blocked']}. What it computes keeps its values of the "
