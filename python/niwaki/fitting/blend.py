@@ -60,7 +60,8 @@ def blend(
 ) -> BlendGenerator:
     """Make a model of a Blender file; its parameters are the sockets of a Geometry Nodes modifier.
 
-    Floats, whole numbers, switches and menus are parameters, and each component of a vector: `Size.x`. A number
+    Floats, whole numbers, switches and menus are parameters, and each component of a vector: `Size.x`. `Size` names all
+    of them. A number
     without limits goes from half of its value to twice it. A socket behind a switch is used only while the switch
     lets it through. The mesh is what Blender shows of the object, with all of its modifiers and instances.
 
@@ -174,17 +175,20 @@ class BlendGenerator(Generator):
         self.sockets = [Socket(**row) for row in head["sockets"]]
         values = {}
         for name, value in {**held, **ranges}.items():
-            row = self._named(name)
-            values[row.name] = row.value if name in held and value is None else value
+            for row in self._named(name):
+                values[row.name] = row.value if name in held and value is None else value
         self.space = Space(self._space(values))
 
-    def _named(self, name: str) -> Socket:
-        """Return a socket by the name that a person writes."""
+    def _named(self, name: str) -> list[Socket]:
+        """Return the socket of the name that a person writes; of a vector all components."""
         for row in self.sockets:
             if row.name == name:
-                return row
+                return [row]
         rows = [row for row in self.sockets if _plain(row.name) == _plain(name)]
-        if len(rows) != 1:
+        parts = [
+            row for row in self.sockets if row.component is not None and _plain(row.name[:-2]) == _plain(name)
+        ]
+        if len(rows) + len({row.identifier for row in parts}) != 1:
             listed = ", ".join(row.name for row in self.sockets) or "it has none"
             raise InputError(
                 "bad-setting",
@@ -193,7 +197,7 @@ class BlendGenerator(Generator):
                 expected=f"a socket of `{self.modifier}`: {listed}",
                 suggestion="one of these names",
             )
-        return rows[0]
+        return rows or parts
 
     def _space(self, values: Mapping[str, Any]) -> dict[str, Parameter]:
         """Return the parameters: the sockets that the tree uses, with the ranges that a person gives to some."""

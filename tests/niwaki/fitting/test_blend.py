@@ -272,6 +272,7 @@ def test_ranges_and_values_are_given_by_names_as_python_writes_them(place):
     assert model.space.axis("My Fate").values == ("well", "fail")
     assert model.recipe()["parameters"]["My Fate"] == {"key": "Socket_3", "values": ["well", "fail"]}
     assert model.call({"Width": 1.5, "My Fate": 0}).mesh[0].max(axis=0).tolist() == [1.5, 2.0, 1.0]
+    assert nw.blend(place, hold=["size"]).kept == {"Socket_2.1": 1.0}
     for words, text in (
         ({"depth": 3}, "a socket of `Nodes`: Width, Size.y, My Fate, Useless"),
         ({"useless": Uniform(1, 2)}, "depends"),
