@@ -60,7 +60,8 @@ def blend(
 ) -> BlendGenerator:
     """Make a model of a Blender file; its parameters are the sockets of a Geometry Nodes modifier.
 
-    Floats, whole numbers, switches and menus are parameters, and each component of a vector: `Size.x`. A number
+    Floats, whole numbers, switches and menus are parameters, and each component of a vector: `Size.x`. `Size` names all
+    of them. A number
     without limits goes from half of its value to twice it. A socket behind a switch is used only while the switch
     lets it through. The mesh is what Blender shows of the object, with all of its modifiers and instances.
 
@@ -162,7 +163,8 @@ class BlendGenerator(Generator):
         if "unloadable" in head:
             raise InputError("blender-failed", name=path.name, reason=head["unloadable"])
         self.object, self.modifier, self.version = head["object"], head["modifier"], head["blender"]
-        self.name = f"{path.stem}-{self.object}"
+        # A folder may have this name.
+        self.name = re.sub(r"[^\w. -]", "_", f"{path.stem}-{self.object}")
         if head.get("blocked"):
             warn(
                 f"`{path.name}` has code that did not run: {head['blocked']}. What it computes keeps its values of the "
@@ -173,17 +175,20 @@ class BlendGenerator(Generator):
         self.sockets = [Socket(**row) for row in head["sockets"]]
         values = {}
         for name, value in {**held, **ranges}.items():
-            row = self._named(name)
-            values[row.name] = row.value if name in held and value is None else value
+            for row in self._named(name):
+                values[row.name] = row.value if name in held and value is None else value
         self.space = Space(self._space(values))
 
-    def _named(self, name: str) -> Socket:
-        """Return a socket by the name that a person writes."""
+    def _named(self, name: str) -> list[Socket]:
+        """Return the socket of the name that a person writes; of a vector all components."""
         for row in self.sockets:
             if row.name == name:
-                return row
+                return [row]
         rows = [row for row in self.sockets if _plain(row.name) == _plain(name)]
-        if len(rows) != 1:
+        parts = [
+            row for row in self.sockets if row.component is not None and _plain(row.name[:-2]) == _plain(name)
+        ]
+        if len(rows) + len({row.identifier for row in parts}) != 1:
             listed = ", ".join(row.name for row in self.sockets) or "it has none"
             raise InputError(
                 "bad-setting",
@@ -192,7 +197,7 @@ class BlendGenerator(Generator):
                 expected=f"a socket of `{self.modifier}`: {listed}",
                 suggestion="one of these names",
             )
-        return rows[0]
+        return rows or parts
 
     def _space(self, values: Mapping[str, Any]) -> dict[str, Parameter]:
         """Return the parameters: the sockets that the tree uses, with the ranges that a person gives to some."""

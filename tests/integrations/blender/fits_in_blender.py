@@ -119,6 +119,32 @@ def test_sockets_have_limits_and_are_used_behind_their_switches() -> None:
     assert (rows["Height"].low, rows["Height"].high) == (None, None)
 
 
+def test_a_socket_that_is_not_used_changes_nothing() -> None:
+    from niwaki.fitting.in_blender import stage
+
+    obj, modifier = node_trees.add(node_trees.chair(), "Chair")
+    scene = stage.stage(bpy.data, obj, "alone")
+    rows = {row.name: row for row in sockets().sockets(modifier)}
+    keys = {row.identifier: row.name for row in rows.values()}
+
+    def mesh(**settings: Any) -> bytes:
+        set_values(modifier, {"Stand": "Legs", "Back": False, **settings})
+        vertices, _ = stage.mesh(scene, obj)
+        return bytes(vertices.tobytes())
+
+    for stand in ("Legs", "Pedestal"):
+        for back in (False, True):
+            state = {"Stand": stand, "Back": back}
+            for name in ("Seat Width", "Leg", "Column", "Back Height", "Slats"):
+                is_used = not rows[name].rules or any(
+                    all(state[keys[other]] in values for other, values in rule.items())
+                    for rule in rows[name].rules
+                )
+                low, high = (mesh(**state, **{name: end}) for end in (rows[name].low, rows[name].high))
+                assert (low != high) == is_used, (name, state)
+                mesh(**state, **{name: rows[name].value})
+
+
 def test_conditions_go_through_groups_and_both_branches() -> None:
     tree = node_trees.Tree("Outer")
     on, size, both = tree.socket("On", "Bool"), tree.socket("Size", "Float"), tree.socket("Both", "Float")

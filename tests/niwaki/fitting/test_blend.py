@@ -101,7 +101,7 @@ class Nodes:
     """A node tree of plain objects, as Blender shows it."""
 
     def __init__(self, *inputs):
-        self.nodes, self.interface = [], SimpleNamespace(items_tree=[])
+        self.nodes, self.links, self.interface = [], [], SimpleNamespace(items_tree=[])
         for name in inputs:
             self.interface.items_tree.append(
                 SimpleNamespace(item_type="SOCKET", in_out="INPUT", identifier=name)
@@ -112,7 +112,7 @@ class Nodes:
         node = SimpleNamespace(
             bl_idname=kind, name=str(len(self.nodes)), mute=False, id_data=self, **settings
         )
-        entry = lambda name: SimpleNamespace(name=name, identifier=name, enabled=True, links=[], node=node)  # noqa: E731
+        entry = lambda name: SimpleNamespace(name=name, identifier=name, enabled=True)  # noqa: E731
         node.inputs, node.outputs = [entry(name) for name in inputs], [entry(name) for name in outputs]
         self.nodes.append(node)
         return node
@@ -120,7 +120,8 @@ class Nodes:
     def link(self, node, output, to, name, muted=False):
         socket = next(entry for entry in to.inputs if entry.name == name)
         origin = next(entry for entry in node.outputs if entry.name == output)
-        socket.links.append(SimpleNamespace(from_node=node, from_socket=origin, is_muted=muted))
+        ends = {"from_node": node, "from_socket": origin, "to_node": to, "to_socket": socket}
+        self.links.append(SimpleNamespace(**ends, is_muted=muted))
 
     def switch(self, control, false=None, true=None):
         node = self.add("GeometryNodeSwitch", ["Switch", "False", "True"])
@@ -272,6 +273,7 @@ def test_ranges_and_values_are_given_by_names_as_python_writes_them(place):
     assert model.space.axis("My Fate").values == ("well", "fail")
     assert model.recipe()["parameters"]["My Fate"] == {"key": "Socket_3", "values": ["well", "fail"]}
     assert model.call({"Width": 1.5, "My Fate": 0}).mesh[0].max(axis=0).tolist() == [1.5, 2.0, 1.0]
+    assert nw.blend(place, hold=["size"]).kept == {"Socket_2.1": 1.0}
     for words, text in (
         ({"depth": 3}, "a socket of `Nodes`: Width, Size.y, My Fate, Useless"),
         ({"useless": Uniform(1, 2)}, "depends"),

@@ -36,7 +36,7 @@ class Model:
     def __init__(self, bpy: Any, recipe: Mapping[str, Any]) -> None:
         self._bpy, self._up = bpy, recipe["up"]
         self._sockets, self._stage = module("sockets"), module("stage")
-        # Scripts and drivers of the file do not run.
+        # Scripts of the file do not run, and neither do drivers that are more than arithmetic.
         bpy.ops.wm.open_mainfile(filepath=recipe["path"], load_ui=False, use_scripts=False)
         self.object, self.modifier = self._sockets.find(
             bpy.data.objects, recipe["object"], recipe["modifier"]

@@ -6,8 +6,8 @@ output back to its sockets; what no link shows counts as used always.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 #: Kinds of sockets that are parameters, by Blender's types. A vector is one for each of its components.
@@ -25,13 +25,17 @@ COMPONENTS = "xyzw"
 #: A limit of this size counts as none: earlier versions of Blender gave it to every socket.
 NO_LIMIT = 10_000.0
 
-#: Conditions of a socket beyond this number, and visits of nodes, after which all sockets count as used always.
-MOST_RULES, MOST_VISITS = 8, 20_000
+#: More conditions of a place than this count as always.
+MOST_RULES = 8
+
+#: With more places than this all sockets count as used always.
+MOST_PLACES = 20_000
 
 #: Values of sockets under which something is used, by the sockets' identifiers.
 Rule = dict[str, list[Any]]
 
-_Literals = frozenset[tuple[str, Any]]
+#: The same while they are simplified.
+_Rule = dict[str, frozenset[Any]]
 
 
 class NodeTreeError(ValueError):
@@ -276,147 +280,224 @@ def conditions(tree: Any, discrete: Mapping[str, list[Any]]) -> dict[str, list[R
     dict
         Conditions of which one must hold; no condition for a socket that is used always.
     """
-    walk = _Walk(discrete)
+    walk = _Walk(tree, discrete)
     try:
-        walk.output(None, tree, None, frozenset())
+        return walk.uses()
     except _TooManyError:
         return {item.identifier: [] for item in _inputs(tree)}
-    return {identifier: _rules(literals, discrete) for identifier, literals in walk.uses.items()}
 
 
 class _TooManyError(Exception):
-    """The tree has too many paths."""
+    """The tree has too many nodes, or a circle."""
+
+
+@dataclass(frozen=True)
+class _Place:
+    """A node that others depend on; of a group and of a group's input the output that they read.
+
+    Attributes
+    ----------
+    key : tuple
+        The names of the groups around it, of the node, and of the output.
+    frame : tuple or None
+        The group node around it, with the frame around that; None in the tree itself.
+    node : object
+        The node; None for the output of the whole tree.
+    socket : str
+        The output's identifier; empty for a node that is read as a whole.
+    """
+
+    key: tuple[Any, ...]
+    frame: Any = field(compare=False)
+    node: Any = field(compare=False)
+    socket: str = field(compare=False)
+
+
+#: The places that a place depends on, each with the switch or menu that lets it through, and its value.
+_Edges = list[tuple[_Place, tuple[str, Any] | None]]
+
+_ROOT = _Place((), None, None, "")
 
 
 class _Walk:
-    """A walk from the output of a tree back to its sockets.
+    """A walk from the output of a tree back to its sockets, each place after all that depend on it."""
 
-    A place is a frame and a node: the frame is a group node with the frame around it; None for the tree itself.
-    """
+    def __init__(self, tree: Any, discrete: Mapping[str, list[Any]]) -> None:
+        self._tree, self._discrete = tree, discrete
+        self._links: dict[int, dict[tuple[str, str], list[tuple[Any, Any]]]] = {}
+        self._kept: list[Any] = []
 
-    def __init__(self, discrete: Mapping[str, list[Any]]) -> None:
-        self.discrete = discrete
-        self.uses: dict[str, list[_Literals]] = {}
-        self._seen: dict[Any, list[_Literals]] = {}
-        self._visits = 0
+    def uses(self) -> dict[str, list[Rule]]:
+        """Return when each socket is used, by identifier."""
+        edges = self._edges()
+        conditions: dict[_Place, list[_Rule]] = {place: [] for place in edges}
+        conditions[_ROOT] = [{}]
+        out: dict[str, list[Rule]] = {}
+        for place in reversed(edges):
+            rules = _simplified(conditions[place], self._discrete)
+            for other, literal in edges[place]:
+                conditions[other] += rules if literal is None else _narrowed(rules, *literal)
+            if (
+                place.node is not None
+                and place.frame is None
+                and place.node.bl_idname == "NodeGroupInput"
+                and rules
+            ):
+                out[place.socket] = _listed(rules, self._discrete)
+        return out
 
-    def output(self, frame: Any, tree: Any, identifier: str | None, when: _Literals) -> None:
-        """Follow an output of a tree; without a name all of them."""
-        for node in tree.nodes:
-            if node.bl_idname == "NodeGroupOutput" and getattr(node, "is_active_output", True):
-                for socket in node.inputs:
-                    if identifier is None or socket.identifier == identifier:
-                        self.input(frame, socket, when)
+    def _edges(self) -> dict[_Place, _Edges]:
+        """Return the edges of all places, in an order in which each comes after those that it depends on."""
+        out: dict[_Place, _Edges] = {}
+        open_: dict[_Place, tuple[_Edges, Iterator[Any]]] = {}
+        stack = [_ROOT]
+        while stack:
+            place = stack[-1]
+            if place not in open_:
+                edges = self._of(place)
+                open_[place] = (edges, iter(edges))
+                if len(open_) + len(out) > MOST_PLACES:
+                    raise _TooManyError
+            edges, rest = open_[place]
+            for other, _ in rest:
+                if other in out:
+                    continue
+                if other in open_:
+                    raise _TooManyError
+                stack.append(other)
+                break
+            else:
+                out[place] = edges
+                del open_[place]
+                stack.pop()
+        return out
 
-    def input(self, frame: Any, socket: Any, when: _Literals) -> None:
-        """Follow the links into a socket of a node."""
-        for link in socket.links:
-            if not link.is_muted:
-                self.node(frame, link.from_node, link.from_socket, when)
-
-    def node(self, frame: Any, node: Any, socket: Any, when: _Literals) -> None:
-        """Follow what an output of a node depends on."""
-        if self._is_known((_key(frame), node.name, socket.identifier), when):
-            return
+    def _of(self, place: _Place) -> _Edges:
+        """Return what a place depends on."""
+        frame, node = place.frame, place.node
+        if node is None:
+            return self._output(None, self._tree, None)
         if node.bl_idname == "NodeGroupInput":
-            self._group_input(frame, socket, when)
-        elif node.bl_idname == "GeometryNodeGroup" and node.node_tree is not None and not node.mute:
-            self.output((frame, node), node.node_tree, socket.identifier, when)
-        elif node.bl_idname in ("GeometryNodeSwitch", "GeometryNodeMenuSwitch") and not node.mute:
-            self._switch(frame, node, when)
-        else:
-            self._all(frame, node, when)
+            if frame is None:
+                return []
+            outer, group = frame
+            entries = [entry for entry in group.inputs if entry.identifier == place.socket]
+            return [edge for entry in entries for edge in self._into(outer, group, entry)]
+        if node.bl_idname == "GeometryNodeGroup" and node.node_tree is not None and not node.mute:
+            return self._output((frame, node), node.node_tree, place.socket)
+        if node.bl_idname in ("GeometryNodeSwitch", "GeometryNodeMenuSwitch") and not node.mute:
+            return self._switch(frame, node)
+        # The two ends of a zone belong together.
+        pairs = [entry for entry in node.id_data.nodes if getattr(entry, "paired_output_node", None) == node]
+        return [
+            edge for end in (node, *pairs) for socket in end.inputs for edge in self._into(frame, end, socket)
+        ]
 
-    def _group_input(self, frame: Any, socket: Any, when: _Literals) -> None:
-        if frame is None:
-            self.uses.setdefault(socket.identifier, []).append(when)
-            return
-        outer, group = frame
-        for entry in group.inputs:
-            if entry.identifier == socket.identifier:
-                self.input(outer, entry, when)
+    def _output(self, frame: Any, tree: Any, identifier: str | None) -> _Edges:
+        """Return what an output of a tree depends on; without a name all of them."""
+        return [
+            edge
+            for node in tree.nodes
+            if node.bl_idname == "NodeGroupOutput" and getattr(node, "is_active_output", True)
+            for socket in node.inputs
+            if identifier is None or socket.identifier == identifier
+            for edge in self._into(frame, node, socket)
+        ]
 
-    def _switch(self, frame: Any, node: Any, when: _Literals) -> None:
+    def _switch(self, frame: Any, node: Any) -> _Edges:
         is_menu = node.bl_idname == "GeometryNodeMenuSwitch"
         rows = [socket for socket in node.inputs if socket.enabled]
         control = next((row for row in rows if row.name == ("Menu" if is_menu else "Switch")), None)
         if control is None:
-            self._all(frame, node, when)
-            return
-        self.input(frame, control, when)
-        source = self._source(frame, control)
+            return [edge for row in rows for edge in self._into(frame, node, row)]
+        edges = self._into(frame, node, control)
+        source = self._source(frame, node, control)
         for row in rows:
-            if row is control or row.name == control.name:
+            if row is control:
                 continue
             value = row.name if is_menu else {"False": False, "True": True}.get(row.name)
-            if source is None or value not in self.discrete[source]:
-                self.input(frame, row, when)
-            elif all(other == value for name, other in when if name == source):
-                self.input(frame, row, when | {(source, value)})
+            is_known = source is not None and value in self._discrete[source]
+            literal = (source, value) if source is not None and is_known else None
+            edges += [(other, literal) for other, _ in self._into(frame, node, row)]
+        return edges
 
-    def _source(self, frame: Any, socket: Any) -> str | None:
+    def _source(self, frame: Any, node: Any, socket: Any) -> str | None:
         """Return the switch or menu of the tree that a socket is linked to directly."""
-        links = [link for link in socket.links if not link.is_muted]
-        if len(links) != 1:
-            return None
-        node, origin = links[0].from_node, links[0].from_socket
-        if node.bl_idname == "NodeReroute":
-            return self._source(frame, node.inputs[0])
-        if node.bl_idname != "NodeGroupInput":
-            return None
-        if frame is None:
-            return origin.identifier if origin.identifier in self.discrete else None
-        outer, group = frame
-        entry = next((entry for entry in group.inputs if entry.identifier == origin.identifier), None)
-        return None if entry is None else self._source(outer, entry)
+        while True:
+            links = self._index(node).get((node.name, socket.identifier), [])
+            if len(links) != 1:
+                return None
+            node, origin = links[0]
+            if node.bl_idname == "NodeReroute":
+                socket = node.inputs[0]
+                continue
+            if node.bl_idname != "NodeGroupInput":
+                return None
+            if frame is None:
+                return origin.identifier if origin.identifier in self._discrete else None
+            frame, node = frame
+            entries = [entry for entry in node.inputs if entry.identifier == origin.identifier]
+            if not entries:
+                return None
+            socket = entries[0]
 
-    def _all(self, frame: Any, node: Any, when: _Literals) -> None:
-        for socket in node.inputs:
-            self.input(frame, socket, when)
-        # The two ends of a zone belong together.
-        for other in node.id_data.nodes:
-            if getattr(other, "paired_output_node", None) == node:
-                for socket in other.inputs:
-                    self.input(frame, socket, when)
+    def _into(self, frame: Any, node: Any, socket: Any) -> _Edges:
+        """Return the places that are linked to an input of a node."""
+        edges: _Edges = []
+        for origin, output in self._index(node).get((node.name, socket.identifier), []):
+            is_part = origin.bl_idname in ("NodeGroupInput", "GeometryNodeGroup")
+            name = output.identifier if is_part else ""
+            # All nodes for the group's input are one.
+            called = "" if origin.bl_idname == "NodeGroupInput" else origin.name
+            edges.append((_Place((*_key(frame), called, name), frame, origin, name), None))
+        return edges
 
-    def _is_known(self, place: Any, when: _Literals) -> bool:
-        """Tell whether a place was reached under a condition that includes this one; note it otherwise."""
-        earlier = self._seen.setdefault(place, [])
-        if any(other <= when for other in earlier):
-            return True
-        earlier.append(when)
-        self._visits += 1
-        if self._visits > MOST_VISITS:
-            raise _TooManyError
-        return False
+    def _index(self, node: Any) -> dict[tuple[str, str], list[tuple[Any, Any]]]:
+        """Return the links of a node's tree by node and input; Blender looks through all of them for each socket."""
+        tree = node.id_data
+        index = self._links.get(id(tree))
+        if index is None:
+            index = self._links[id(tree)] = {}
+            # An object that is gone could leave its number to another one.
+            self._kept.append(tree)
+            for link in tree.links:
+                if not link.is_muted:
+                    place = (link.to_node.name, link.to_socket.identifier)
+                    index.setdefault(place, []).append((link.from_node, link.from_socket))
+        return index
 
 
-def _key(frame: Any) -> Any:
-    return None if frame is None else (_key(frame[0]), frame[1].name)
+def _key(frame: Any) -> tuple[str, ...]:
+    return () if frame is None else (*_key(frame[0]), frame[1].name)
 
 
-def _rules(uses: Iterable[_Literals], discrete: Mapping[str, list[Any]]) -> list[Rule]:
-    """Simplify conditions of which one must hold; an empty list if one of them always does."""
-    rules: list[dict[str, frozenset[Any]]] = []
-    for literals in uses:
-        rule = {name: frozenset([value]) for name, value in literals}
-        if rule not in rules:
-            rules.append(rule)
-    joined = True
-    while joined:
-        joined = False
-        for a in rules:
-            for b in rules:
-                both = None if a is b else _union(a, b, discrete)
-                if both is not None:
-                    rules = [rule for rule in rules if rule is not a and rule is not b]
-                    if both not in rules:
-                        rules.append(both)
-                    joined = True
-                    break
-            if joined:
-                break
-    if len(rules) > MOST_RULES or not all(rules):
+def _narrowed(rules: Iterable[_Rule], name: str, value: Any) -> list[_Rule]:
+    """Return the conditions with one more: a switch or menu has a value."""
+    return [{**rule, name: frozenset([value])} for rule in rules if value in rule.get(name, (value,))]
+
+
+def _simplified(rules: Iterable[_Rule], discrete: Mapping[str, list[Any]]) -> list[_Rule]:
+    """Return fewer conditions of which one must hold; many of them count as always."""
+    out: list[_Rule] = []
+    for rule in rules:
+        if rule not in out:
+            out.append(rule)
+    if len(out) > MOST_RULES**2:
+        return [{}]
+    while True:
+        pairs = ((a, b, _union(a, b, discrete)) for a in out for b in out if a is not b)
+        first = next(((a, b, both) for a, b, both in pairs if both is not None), None)
+        if first is None:
+            return out if len(out) <= MOST_RULES else [{}]
+        a, b, both = first
+        out = [rule for rule in out if rule is not a and rule is not b]
+        if both not in out:
+            out.append(both)
+
+
+def _listed(rules: Iterable[_Rule], discrete: Mapping[str, list[Any]]) -> list[Rule]:
+    """Return conditions with their values in order; none if one of them always holds."""
+    if not all(rules):
         return []
     return [
         {name: [value for value in discrete[name] if value in values] for name, values in rule.items()}
@@ -424,9 +505,7 @@ def _rules(uses: Iterable[_Literals], discrete: Mapping[str, list[Any]]) -> list
     ]
 
 
-def _union(
-    a: Mapping[str, frozenset[Any]], b: Mapping[str, frozenset[Any]], discrete: Mapping[str, list[Any]]
-) -> dict[str, frozenset[Any]] | None:
+def _union(a: _Rule, b: _Rule, discrete: Mapping[str, list[Any]]) -> _Rule | None:
     """Return one condition for two of which one must hold, if they differ in one socket or one includes the other."""
     if all(name in b and b[name] <= values for name, values in a.items()):
         return dict(a)
