@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from importlib import import_module
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,14 @@ from niwaki.fitting.commands import CommandGenerator
 from niwaki.fitting.functions import FunctionGenerator
 from niwaki.fitting.generator import Generator
 from niwaki.fitting.openscad import ScadGenerator, scad
+
+
+#: How generators are made again, by the kinds of their recipes.
+KINDS: dict[str, Callable[[Mapping[str, Any]], Generator]] = {
+    "function": FunctionGenerator.of_recipe,
+    "command": CommandGenerator.of_recipe,
+    "scad": ScadGenerator.of_recipe,
+}
 
 
 def generator_of(model: Any) -> Generator:
@@ -39,9 +48,9 @@ def generator_of(model: Any) -> Generator:
 
 def generator_of_recipe(recipe: Mapping[str, Any]) -> Generator:
     """Make a generator again from its data, in a worker process."""
-    kinds: dict[str, Callable[[Mapping[str, Any]], Generator]] = {
-        "function": FunctionGenerator.of_recipe,
-        "command": CommandGenerator.of_recipe,
-        "scad": ScadGenerator.of_recipe,
-    }
-    return kinds[recipe["kind"]](recipe)
+    if recipe["kind"] not in KINDS:
+        # A kind of a package above names its module.
+        module, _, name = str(recipe["kind"]).partition(":")
+        made: Generator = getattr(import_module(module), name).of_recipe(recipe)
+        return made
+    return KINDS[recipe["kind"]](recipe)

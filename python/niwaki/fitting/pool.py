@@ -61,6 +61,10 @@ class Reply:
         The draws of a function that is defined by run.
     seconds : float
         Wall time of the call.
+    parts : tuple
+        Name, vertices and faces of each part, for a generator with parts.
+    facts : tuple
+        What the generator says about the result.
     """
 
     vertices: NDArray[np.float64] | None = None
@@ -70,6 +74,8 @@ class Reply:
     defects: tuple[str, ...] = ()
     drawn: tuple[Drawn, ...] = ()
     seconds: float = 0.0
+    parts: tuple[tuple[str, NDArray[np.float64], NDArray[np.int64]], ...] = ()
+    facts: tuple[Any, ...] = ()
 
     @classmethod
     def of_answer(cls, head: Mapping[str, Any], body: bytes, seconds: float) -> Reply:
@@ -78,12 +84,21 @@ class Reply:
         if "failed" in head:
             return cls(failed=head["failed"], kind="raised", drawn=drawn, seconds=seconds)
         cut = 24 * head["vertices"]
+        vertices = np.frombuffer(body[:cut], "<f8").reshape(-1, 3)
+        faces = np.frombuffer(body[cut:], "<i8").reshape(-1, 3)
+        parts, at, corner = [], 0, 0
+        for name, points, triangles in head.get("parts", ()):
+            own = faces[corner : corner + triangles] - at
+            parts.append((name, vertices[at : at + points], own))
+            at, corner = at + points, corner + triangles
         return cls(
-            np.frombuffer(body[:cut], "<f8").reshape(-1, 3),
-            np.frombuffer(body[cut:], "<i8").reshape(-1, 3),
+            vertices,
+            faces,
             defects=tuple(head["defects"]),
             drawn=drawn,
             seconds=seconds,
+            parts=tuple(parts),
+            facts=tuple(head.get("facts", ())),
         )
 
 

@@ -1,0 +1,574 @@
+"""The search for few numbers whose change repairs a script.
+
+Runs of the script are few: one as it is written, a few for derivatives (`prediction`), and then one for each plan. A plan
+is a beam of changes, each of one number by as much as a predicted violation needs, rounded as a person would write it.
+The plan of least cost is run, its violations correct the rules of the prediction, and the next plan follows.
+
+The cost of a run, or of a predicted one, is
+
+    60 * violated / violated at first + 4 * violations + numbers changed + 200 * moved + 0.1 * sum(z^2)
+
+where `moved` is how far the parts moved, weighted by volume, as a share of the scene, and z is the change of a number in
+widths of its prior.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from niwaki.repairing.literals import Literal
+from niwaki.repairing.prediction import MOST_RUNS, RUNS, TINY, Array, Rules, changes, derivatives
+from niwaki.repairing.scripts import Violation
+from niwaki.repairing.writing import rounded
+
+#: The cost of all that is violated at first, of each violation, of each number, of a move of all by the scene's size,
+#: and of a number changed by its width.
+ALL, EACH, NUMBER, FAR, WIDE = 60.0, 4.0, 1.0, 200.0, 0.1
+#: Plans kept side by side; the most numbers that a plan changes; violations that a plan attends to at once.
+BEAM, DEPTH, ATTENDED = 3, 10, 3
+#: The most numbers that are tried against one violation.
+TRIED = 12
+#: Runs without a gain after which the search ends; runs that look for a smaller change of a script that is repaired.
+PATIENCE, POLISH = 10, 4
+#: A plan of a repaired script is run if it costs less by this.
+GAIN = 0.3
+#: The share of an unexplained violation that a move of its part is hoped to end; after each failure the half of it.
+HOPE = 0.7
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """A run of the script.
+
+    Attributes
+    ----------
+    number : int
+        Its place in the order of runs.
+    values : dict
+        The numbers that are not as written, by key.
+    boxes : (parts, 2, 3) array
+        The boxes of the parts; None if the run failed or makes other parts.
+    violations : tuple of Violation
+    failed : str
+        The text of a failure.
+    cost : float
+        See the module; infinity for a failure.
+    """
+
+    number: int
+    values: dict[str, float]
+    boxes: Array | None
+    violations: tuple[Violation, ...]
+    failed: str = ""
+    moved: float = 0.0
+    cost: float = math.inf
+
+    @property
+    def violated(self) -> float:
+        """The sum of what is violated."""
+        return sum(row.amount for row in self.violations) if not self.failed else math.inf
+
+
+#: Runs a script with numbers: the outcomes in order.
+Evaluate = Callable[[Sequence[Mapping[str, float]]], list[Trial]]
+
+
+@dataclass(eq=False)
+class _Node:
+    """A predicted run."""
+
+    values: dict[str, float]
+    boxes: Array
+    pairs: Array
+    alone: Array
+    rooms: Array
+    rest: dict[tuple[str, tuple[str, ...]], float]
+    cost: float = math.inf
+
+    @property
+    def is_violated(self) -> bool:
+        """Whether something is predicted to be violated."""
+        return bool(self.rest) or bool(self.pairs.any() or self.alone.any() or self.rooms.any())
+
+
+@dataclass(frozen=True)
+class _Item:
+    """A predicted violation: kind "pair", "room", "alone" or "rest", and its parts."""
+
+    cost: float
+    kind: str
+    parts: tuple[int, ...]
+    wide: Array | None = None
+    key: tuple[str, tuple[str, ...]] | None = None
+
+
+class Repairing:
+    """A search under way.
+
+    Parameters
+    ----------
+    rows
+        The literals that may change.
+    evaluate
+        Runs the script.
+    names
+        The parts.
+    up
+        The axis that points up.
+    exact
+        Whether the script's coordinates have all their digits.
+    resizes
+        Whether numbers that resize parts may change, by key.
+    """
+
+    def __init__(
+        self,
+        rows: Sequence[Literal],
+        evaluate: Evaluate,
+        base: Trial,
+        rules: Rules,
+        budget: int,
+        exact: bool = True,
+        resizes: Callable[[Literal], bool] = lambda row: False,
+    ) -> None:
+        assert base.boxes is not None
+        self.rows = {row.key: row for row in rows}
+        self.evaluate, self.base, self.rules, self.budget = evaluate, base, rules, budget
+        self.exact, self.resizes = exact, resizes
+        self.widths = {row.key: row.width(rules.size) for row in rows}
+        self.slopes: dict[str, Array] = {}
+        self.sizes: list[Literal] = []
+        self.volumes = np.prod(np.maximum(base.boxes[:, 1] - base.boxes[:, 0], 1e-9), axis=-1)
+        self.first = max(base.violated, 1e-12)
+        self.hopes: dict[tuple[str, tuple[str, ...]], float] = {}
+        self.base = self.priced(base)
+        self.trials = [self.base]
+        rules.learn(base.boxes, base.violations)
+
+    @property
+    def left(self) -> int:
+        """Runs that are left."""
+        return self.budget - len(self.trials)
+
+    @property
+    def best(self) -> Trial:
+        """The run of least cost."""
+        return min(self.trials, key=lambda trial: (trial.cost, trial.number))
+
+    def run(self, report: Callable[[Trial], None] = lambda trial: None, patches: int = 1) -> None:
+        """Search until nothing is violated and nothing cheaper is predicted, or all runs are spent."""
+        self.differentiate()
+        stalled, polished = 0, 0
+        while self.left > 0 and stalled < PATIENCE and polished < POLISH:
+            before = self.best
+            values = self.proposal()
+            if values is None and before.violations:
+                values = next(self.alternatives(), None)
+            if values is None:
+                break
+            trial = self.tell(self.evaluate([values])[0])
+            report(trial)
+            stalled = 0 if trial.cost < before.cost - 1e-9 else stalled + 1
+            polished += not before.violations
+        failures = 0
+        while self.left > 0 and failures < PATIENCE and 0 < self.answers < patches:
+            values = self.proposal(others=True)
+            if values is None:
+                break
+            before = self.answers
+            report(self.tell(self.evaluate([values])[0]))
+            failures = 0 if self.answers > before else failures + 1
+
+    @property
+    def answers(self) -> int:
+        """The number of sets of literals whose change repairs the script."""
+        return len(self._repairing())
+
+    def _repairing(self) -> set[frozenset[str]]:
+        return {
+            frozenset(trial.values)
+            for trial in self.trials
+            if trial.boxes is not None and not trial.violations and trial.cost < self.base.cost
+        }
+
+    def priced(self, trial: Trial) -> Trial:
+        """Return a run with its cost."""
+        if trial.boxes is None or trial.failed:
+            return trial
+        change = self.change(trial.values, trial.boxes)
+        cost = ALL * trial.violated / self.first + EACH * len(trial.violations) + change
+        return replace(trial, cost=cost, moved=float(self._far(trial.boxes[None])[0]))
+
+    def tell(self, trial: Trial) -> Trial:
+        """Learn from a run."""
+        trial = self.priced(trial)
+        self.trials.append(trial)
+        if trial.boxes is not None and not trial.failed:
+            still = {row.key for row in trial.violations}
+            for key in self.hopes:
+                if key in still and any(self._moves(name, key) for name in trial.values):
+                    self.hopes[key] *= 0.5
+            self.rules.learn(trial.boxes, trial.violations)
+        return trial
+
+    def _moves(self, name: str, key: tuple[str, tuple[str, ...]]) -> bool:
+        slope = self.slopes.get(name)
+        places = [self.rules.index[part] for part in key[1] if part in self.rules.index]
+        return slope is not None and bool(np.any(slope[places]))
+
+    def differentiate(self) -> None:
+        """Find how the boxes depend on the numbers, by a few runs."""
+        assert self.base.boxes is not None
+        rows = [row for row in self.rows.values() if row.kind not in ("word", "count")]
+        if not rows:
+            return
+        count = len(self.base.boxes)
+        keys = [row.key for row in rows]
+        unit = np.array([self.widths[key] for key in keys]) * (TINY if self.exact else 0.2)
+        if not self.exact or len(keys) <= RUNS:
+            table = self._one_by_one(rows, unit)
+        else:
+            table = self._together(rows, unit)
+        for key, row, slope in zip(keys, rows, table, strict=True):
+            slope = slope.reshape(count, 2, 3)
+            far = float(np.abs(slope).max())
+            if far == 0.0:
+                continue
+            resized = np.abs(slope[:, 0] - slope[:, 1]).max()
+            if resized > 1e-3 * far and row.kind == "length" and not self.resizes(row):
+                self.sizes.append(row)
+                continue
+            self.slopes[key] = slope
+
+    def _one_by_one(self, rows: Sequence[Literal], unit: Array) -> Array:
+        """Change the numbers one by one."""
+        assert self.base.boxes is not None
+        table = np.zeros((len(rows), self.base.boxes.size))
+        runs = self.evaluate(
+            [{row.key: row.value + step} for row, step in zip(rows, unit, strict=True)][: max(self.left - 1, 0)]
+        )
+        for number, run in enumerate(runs):
+            # A run whose change is large is an outcome, too.
+            (self.tell if not self.exact else self.trials.append)(run)
+            if run.boxes is not None:
+                table[number] = (run.boxes - self.base.boxes).ravel() / unit[number]
+        table[np.abs(table) < 1e-7] = 0.0
+        return table
+
+    def _together(self, rows: Sequence[Literal], unit: Array) -> Array:
+        """Change all numbers at once, a few times, by tiny random amounts."""
+        assert self.base.boxes is not None
+        steps = changes(len(rows), MOST_RUNS)
+        moved: list[Array] = []
+        used: list[int] = []
+        count, table = min(RUNS, self.left - 1), np.zeros((len(rows), self.base.boxes.size))
+        while len(used) < MOST_RUNS and self.left > 1:
+            wanted = list(range(max(used, default=-1) + 1, min(max(used, default=-1) + 1 + count, MOST_RUNS)))
+            if not wanted:
+                break
+            runs = self.evaluate(
+                [
+                    {row.key: row.value + float(step) for row, step in zip(rows, steps[number] * unit, strict=True)}
+                    for number in wanted
+                ]
+            )
+            for number, run in zip(wanted, runs, strict=True):
+                self.trials.append(run)
+                used.append(number)
+                if run.boxes is not None:
+                    moved.append((run.boxes - self.base.boxes).ravel())
+            good = [number for number, run in zip(used, self.trials[1:], strict=True) if run.boxes is not None]
+            if len(good) < 3:
+                return self._one_by_one(rows, unit)
+            table, explained = derivatives(steps[good] * unit, np.array(moved))
+            matters = np.zeros((len(self.rules.names), 6), bool)
+            for row in self.base.violations:
+                matters[[self.rules.index[name] for name in row.parts if name in self.rules.index]] = True
+            if explained[matters.ravel()].all():
+                break
+            count = 3
+        table[np.abs(table) < 1e-6] = 0.0
+        return table
+
+    def proposal(self, others: bool = False) -> dict[str, float] | None:
+        """Return the numbers of the next run; None if no plan promises a gain.
+
+        Parameters
+        ----------
+        others
+            Whether to look for repairs by sets of literals that do not repair the script yet.
+        """
+        best, known = self.best, self._repairing()
+        seen = {tuple(sorted(trial.values.items())) for trial in self.trials}
+        starts = [self.base]
+        for trial in sorted(self.trials, key=lambda trial: trial.cost)[:2]:
+            if trial is not self.base and trial.boxes is not None and math.isfinite(trial.cost):
+                starts.append(trial)
+        limit = self.base.cost if others else best.cost - (GAIN if not best.violations else 1e-6)
+        plans: list[_Node] = []
+        for start in starts[:1] if others else starts:
+            plans += self.plan(start)
+        for plan in sorted(plans, key=lambda plan: plan.cost):
+            if plan.cost >= limit:
+                return None
+            if others and (frozenset(plan.values) in known or plan.is_violated):
+                continue
+            if tuple(sorted(plan.values.items())) not in seen:
+                return plan.values
+        return None
+
+    def alternatives(self) -> Iterator[dict[str, float]]:
+        """Return changes of words and counts, each alone, at the best run."""
+        seen = {tuple(sorted(trial.values.items())) for trial in self.trials}
+        best = self.best
+        for key, row in self.rows.items():
+            here = best.values.get(key, row.value)
+            others: list[float] = []
+            if row.kind == "word":
+                others = [float(n) for n in range(len(row.words)) if n != here]
+            elif row.kind == "count":
+                others = [here - 1, here + 1]
+            for other in others:
+                values = {**best.values, key: other}
+                if values[key] == row.value:
+                    del values[key]
+                if tuple(sorted(values.items())) not in seen:
+                    yield values
+
+    def plan(self, start: Trial) -> list[_Node]:
+        """Return predicted runs, by a beam of changes from a run."""
+        assert start.boxes is not None
+        rules, every = self.rules, np.arange(len(self.rules.names))
+        pairs, alone, rooms = (
+            rules.pairs(start.boxes, start.boxes, every),
+            rules.alone(start.boxes),
+            rules.rooms(start.boxes),
+        )
+        rest = {}
+        zones = list(rules.zones)
+        for row in start.violations:
+            places = [rules.index[name] for name in row.parts if name in rules.index]
+            is_known = (len(places) == 1 and alone[places[0]] > 0) or (
+                len(places) == 2
+                and (
+                    pairs[places[0], places[1]] > 0
+                    or any(
+                        zone == (row.requirement, places[0]) and rooms[number, places[1]] > 0
+                        for number, zone in enumerate(zones)
+                    )
+                )
+            )
+            if not is_known:
+                rest[row.key] = row.amount
+                self.hopes.setdefault(row.key, HOPE)
+        node = _Node(dict(start.values), start.boxes, pairs, alone, rooms, rest)
+        node.cost = self._cost(node)
+        nodes, beam = [], [node]
+        known = {tuple(sorted(node.values.items()))}
+        for _ in range(DEPTH):
+            children: list[tuple[float, _Node, str, float, tuple[tuple[str, tuple[str, ...]], float] | None]] = []
+            for parent in beam:
+                children += self._children(parent)
+            children.sort(key=lambda child: child[0])
+            beam = []
+            for _, parent, key, value, eased in children:
+                child = self._child(parent, key, value, eased)
+                name = tuple(sorted(child.values.items()))
+                if name in known:
+                    continue
+                known.add(name)
+                beam.append(child)
+                nodes.append(child)
+                if len(beam) == BEAM:
+                    break
+            if not beam or min(child.cost for child in beam) > min(n.cost for n in nodes) + 2 * NUMBER:
+                break
+        return nodes
+
+    def _items(self, node: _Node) -> list[_Item]:
+        """Return the predicted violations, the largest first, and those that nothing explains."""
+        items = [
+            _Item(node.pairs[a, b], "pair", (int(a), int(b))) for a, b in np.argwhere(np.triu(node.pairs) > 0)
+        ]
+        zones = list(self.rules.zones.items())
+        items += [
+            _Item(node.rooms[n, b], "room", (zones[n][0][1], int(b)), zones[n][1])
+            for n, b in np.argwhere(node.rooms > 0)
+        ]
+        items += [_Item(node.alone[n], "alone", (int(n),)) for n in np.flatnonzero(node.alone > 0)]
+        items.sort(key=lambda item: -item.cost)
+        rest = [
+            _Item(amount, "rest", tuple(self.rules.index[p] for p in key[1] if p in self.rules.index), None, key)
+            for key, amount in node.rest.items()
+            if amount > 0
+        ]
+        rest.sort(key=lambda item: -item.cost)
+        return items[:ATTENDED] + rest[: 1 if items else ATTENDED]
+
+    def _children(
+        self, node: _Node
+    ) -> list[tuple[float, _Node, str, float, tuple[tuple[str, tuple[str, ...]], float] | None]]:
+        out: list[tuple[float, _Node, str, float, tuple[tuple[str, tuple[str, ...]], float] | None]] = []
+        wanted: dict[tuple[str, tuple[tuple[str, tuple[str, ...]], float] | None], set[float]] = {}
+        for item in self._items(node):
+            movers = [
+                (int((np.abs(slope).max(axis=(1, 2)) > 0).sum()), key)
+                for key, slope in self.slopes.items()
+                if np.any(slope[list(item.parts)])
+            ]
+            for _, key in sorted(movers)[:TRIED]:
+                row, here = self.rows[key], node.values.get(key, self.rows[key].value)
+                eased = None
+                if item.key is not None:
+                    eased = (item.key, self.hopes[item.key])
+                for step in self._steps(node, item, self.slopes[key], self.widths[key]):
+                    wanted.setdefault((key, eased), set()).update(rounded(here, here + step))
+                if here != row.value:
+                    wanted.setdefault((key, None), set()).add(row.value)
+        for key in node.values:
+            wanted.setdefault((key, None), set()).add(self.rows[key].value)
+        for (key, eased), values in wanted.items():
+            if key not in self.slopes:
+                continue
+            options = np.array(sorted(values))
+            costs = self._costs(node, key, options, eased)
+            order = np.argsort(costs)[: 2 * BEAM]
+            out += [(float(costs[k]), node, key, float(options[k]), eased) for k in order]
+        return out
+
+    def _steps(self, node: _Node, item: _Item, slope: Array, width: float) -> Iterator[float]:
+        """Return changes of a number that are as large as an item needs."""
+        reach = 1.5 * self.rules.size / float(np.abs(slope).max())
+        steps: list[float] = []
+        if item.kind in ("pair", "room"):
+            a, b = item.parts
+            wide = np.zeros(3) if item.wide is None else item.wide
+            low, high = node.boxes[a, 0] - wide, node.boxes[a, 1] + wide
+            # Room between them for the digits that are cut.
+            space = 1e-9 * self.rules.size
+            for axis in range(3):
+                above, below = slope[a, 0, axis] - slope[b, 1, axis], slope[b, 0, axis] - slope[a, 1, axis]
+                if above:
+                    steps.append((node.boxes[b, 1, axis] - low[axis] + space) / above)
+                if below:
+                    steps.append((high[axis] - node.boxes[b, 0, axis] + space) / below)
+        elif item.kind == "alone":
+            (a,) = item.parts
+            for axis in range(3):
+                low, high = node.boxes[a, :, axis]
+                if low < self.rules.room[0, axis] and slope[a, 0, axis]:
+                    steps.append((self.rules.room[0, axis] - low) / slope[a, 0, axis])
+                if high > self.rules.room[1, axis] and slope[a, 1, axis]:
+                    steps.append((self.rules.room[1, axis] - high) / slope[a, 1, axis])
+            steps += self._standing(node, a, slope)
+        else:
+            for a in item.parts:
+                steps += self._standing(node, a, slope)
+                for axis in range(3):
+                    for side in range(2):
+                        off = self.rules.room[side, axis] - node.boxes[a, side, axis]
+                        if slope[a, side, axis] and off:
+                            steps.append(off / slope[a, side, axis])
+            steps += [width * share for share in (-2.0, -1.0, -0.5, 0.5, 1.0, 2.0)]
+        yield from (step for step in steps if 0.0 < abs(step) <= reach)
+
+    def _standing(self, node: _Node, part: int, slope: Array) -> Iterator[float]:
+        """Return changes that put a part back on what it stood on, or on the nearest part below."""
+        up = self.rules.up
+        support = int(self.rules.support[part])
+        if support >= 0:
+            # Its place on the support, as at first.
+            base = self.rules.base
+            for axis in range(3):
+                relative = slope[part, 0, axis] - slope[support, 0, axis]
+                if relative:
+                    at = base[part, 0, axis] - base[support, 0, axis]
+                    yield (at - (node.boxes[part, 0, axis] - node.boxes[support, 0, axis])) / relative
+        if not slope[part, 0, up]:
+            return
+        bottom = node.boxes[part, 0, up]
+        yield (self.rules.base[:, 0, up].min() - bottom) / slope[part, 0, up]
+        flat = [axis for axis in range(3) if axis != up]
+        middle = node.boxes[part].mean(axis=0)[flat]
+        under = ((middle >= node.boxes[:, 0, flat]) & (middle <= node.boxes[:, 1, flat])).all(axis=1)
+        under[part] = False
+        for top in sorted(set(node.boxes[under, 1, up]), key=lambda top: abs(top - bottom))[:2]:
+            yield (float(top) - bottom) / slope[part, 0, up]
+
+    def _costs(
+        self,
+        node: _Node,
+        key: str,
+        values: Array,
+        eased: tuple[tuple[str, tuple[str, ...]], float] | None,
+    ) -> Array:
+        """Return the predicted costs of values of one number."""
+        rules, slope = self.rules, self.slopes[key]
+        here = node.values.get(key, self.rows[key].value)
+        boxes = node.boxes[None] + (values - here)[:, None, None, None] * slope[None]
+        touched = np.flatnonzero(np.abs(slope).max(axis=(1, 2)) > 0)
+        rows = rules.pairs(boxes[:, touched], boxes, touched)
+        among = rows[:, :, touched]
+        old = node.pairs[touched]
+        total = 0.5 * node.pairs.sum()
+        total = total - old.sum() + 0.5 * old[:, touched].sum() + rows.sum(axis=(1, 2)) - 0.5 * among.sum(axis=(1, 2))
+        number = 0.5 * (node.pairs > 0).sum() - (old > 0).sum() + 0.5 * (old[:, touched] > 0).sum()
+        number = number + (rows > 0).sum(axis=(1, 2)) - 0.5 * (among > 0).sum(axis=(1, 2))
+        alone, rooms = rules.alone(boxes), rules.rooms(boxes)
+        rest = sum(node.rest.values())
+        if eased is not None:
+            rest -= eased[1] * node.rest.get(eased[0], 0.0)
+        total = np.maximum(total, 0.0) + alone.sum(axis=1) + rooms.sum(axis=(1, 2)) + rest
+        number = number + (alone > 0).sum(axis=1) + (rooms > 0).sum(axis=(1, 2)) + len(node.rest)
+        # Differences of sums round.
+        total = np.where(total < 1e-9 * self.first, 0.0, total)
+        others = {name: value for name, value in node.values.items() if name != key}
+        changed = len(others) + (values != self.rows[key].value)
+        wide = sum(((value - self.rows[name].value) / self.widths[name]) ** 2 for name, value in others.items())
+        wide = wide + ((values - self.rows[key].value) / self.widths[key]) ** 2
+        return np.asarray(
+            ALL * total / self.first + EACH * number + NUMBER * changed + FAR * self._far(boxes) + WIDE * wide
+        )
+
+    def _child(
+        self,
+        node: _Node,
+        key: str,
+        value: float,
+        eased: tuple[tuple[str, tuple[str, ...]], float] | None,
+    ) -> _Node:
+        rules, every = self.rules, np.arange(len(self.rules.names))
+        here = node.values.get(key, self.rows[key].value)
+        boxes = node.boxes + (value - here) * self.slopes[key]
+        values = {**node.values, key: value}
+        if value == self.rows[key].value:
+            del values[key]
+        rest = dict(node.rest)
+        if eased is not None and eased[0] in rest:
+            rest[eased[0]] *= 1.0 - eased[1]
+        child = _Node(
+            values, boxes, rules.pairs(boxes, boxes, every), rules.alone(boxes), rules.rooms(boxes), rest
+        )
+        child.cost = self._cost(child)
+        return child
+
+    def _cost(self, node: _Node) -> float:
+        total = 0.5 * node.pairs.sum() + node.alone.sum() + node.rooms.sum() + sum(node.rest.values())
+        number = 0.5 * (node.pairs > 0).sum() + (node.alone > 0).sum() + (node.rooms > 0).sum() + len(node.rest)
+        return float(ALL * total / self.first + EACH * number) + self.change(node.values, node.boxes)
+
+    def change(self, values: Mapping[str, float], boxes: Array) -> float:
+        """Return the cost of the change alone: numbers, moves, and widths."""
+        wide = sum(((value - self.rows[key].value) / self.widths[key]) ** 2 for key, value in values.items())
+        return NUMBER * len(values) + FAR * float(self._far(boxes[None])[0]) + WIDE * wide
+
+    def _far(self, boxes: Array) -> NDArray[np.float64]:
+        """Return how far the parts moved: see `prediction.moved`."""
+        assert self.base.boxes is not None
+        far = np.linalg.norm(boxes - self.base.boxes, axis=-1).max(axis=-1)
+        return np.asarray(far @ self.volumes / max(float(self.volumes.sum()) * self.rules.size, 1e-300))
