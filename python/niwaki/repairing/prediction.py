@@ -14,9 +14,8 @@ from the violations of all runs so far:
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +28,8 @@ Array = NDArray[np.float64]
 TINY, RUNS, MOST_RUNS = 1e-6, 6, 12
 #: A coordinate is explained by numbers that leave this share of its changes.
 EXPLAINED = 1e-4
+#: Sets of numbers that are extended side by side.
+KEPT = 24
 #: Two parts touch, or overlap, within this share of the scene's size.
 TOUCHING = 1e-3
 #: The room that a part asks for grows by this share of its size with each violation that it does not explain.
@@ -90,32 +91,32 @@ def _explanation(steps: Array, gram: Array, target: Array) -> tuple[list[int], A
     np.fill_diagonal(determinant, np.inf)
     first = (norms[None] * dots[:, None] - gram * dots[None]) / determinant
     share = first * dots[:, None] + first.T * dots[None]
-    order = np.argsort(-share, axis=None)[:1]
-    a, b = np.unravel_index(int(order[0]), share.shape)
+    a, b = np.unravel_index(int(np.argmax(share)), share.shape)
     best: list[int] = [int(a), int(b)]
     if 1.0 - share[a, b] < EXPLAINED**2:
         return best, np.array([first[a, b], first[b, a]]), True
-    # Three, of which two are among the best pairs.
-    pairs = np.argsort(-share, axis=None)[: 2 * max(24, count)]
-    chosen, weights, left = best, np.zeros(2), np.inf
-    for size in range(3, max(runs - 1, 3)):
-        starts = {tuple(sorted(np.unravel_index(int(p), share.shape))) for p in pairs} if size == 3 else {tuple(chosen)}
-        for start in starts:
-            columns = steps[:, [int(k) for k in start]]
-            basis, _ = np.linalg.qr(columns)
+    # More: the best pairs are extended by the number that explains most of the rest.
+    order = np.argsort(-share, axis=None)[: 2 * KEPT]
+    supports = {tuple(sorted(map(int, np.unravel_index(int(place), share.shape)))) for place in order}
+    weights = np.zeros(2)
+    for _ in range(3, runs - 1):
+        extended: dict[tuple[int, ...], float] = {}
+        for support in supports:
+            basis, _ = np.linalg.qr(steps[:, list(support)])
             rest = target - basis @ (basis.T @ target)
             others = steps - basis @ (basis.T @ steps)
             length = np.maximum(np.einsum("ij,ij->j", others, others), 1e-12)
             gain = (others.T @ rest) ** 2 / length
-            gain[[int(k) for k in start]] = 0.0
-            k = int(np.argmax(gain))
-            residual = float(rest @ rest - gain[k])
-            if residual < left:
-                left, chosen = residual, [*(int(x) for x in start), k]
-        weights = np.linalg.lstsq(steps[:, chosen], target, rcond=None)[0]
-        if left < EXPLAINED**2:
-            return chosen, weights, True
-    return chosen, weights, False
+            gain[list(support)] = 0.0
+            for k in np.argsort(-gain)[:4]:
+                extended[tuple(sorted((*support, int(k))))] = float(rest @ rest - gain[k])
+        nearest = sorted(extended, key=lambda support: extended[support])
+        best = list(nearest[0])
+        weights = np.linalg.lstsq(steps[:, best], target, rcond=None)[0]
+        if extended[nearest[0]] < EXPLAINED**2:
+            return best, weights, True
+        supports = set(nearest[:KEPT])
+    return best, weights, False
 
 
 @dataclass
@@ -277,13 +278,3 @@ def moved(before: Array, after: Array) -> float:
     far = np.linalg.norm(after - before, axis=-1).max(axis=-1)
     size = float((before[:, 1].max(axis=0) - before[:, 0].min(axis=0)).max())
     return float((weights * far).sum() / max(weights.sum() * size, 1e-300))
-
-
-def slopes_of(keys: Sequence[str], table: Array, parts: int) -> Mapping[str, Array]:
-    """Return the derivatives of boxes by the keys of numbers: (parts, 2, 3) each."""
-    return {key: table[number].reshape(parts, 2, 3) for number, key in enumerate(keys)}
-
-
-def couples(rows: Sequence[int]) -> list[tuple[int, int]]:
-    """Return all pairs of some numbers."""
-    return list(combinations(rows, 2))

@@ -15,6 +15,7 @@ widths of its prior.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -30,15 +31,22 @@ from niwaki.repairing.writing import rounded
 #: and of a number changed by its width.
 ALL, EACH, NUMBER, FAR, WIDE = 60.0, 4.0, 1.0, 200.0, 0.1
 #: Plans kept side by side; the most numbers that a plan changes; violations that a plan attends to at once.
-BEAM, DEPTH, ATTENDED = 3, 10, 3
+BEAM, DEPTH, ATTENDED = 3, 12, 3
 #: The most numbers that are tried against one violation.
 TRIED = 12
 #: Runs without a gain after which the search ends; runs that look for a smaller change of a script that is repaired.
-PATIENCE, POLISH = 10, 4
+PATIENCE, POLISH = 36, 4
 #: A plan of a repaired script is run if it costs less by this.
 GAIN = 0.3
 #: The share of an unexplained violation that a move of its part is hoped to end; after each failure the half of it.
 HOPE = 0.7
+#: A prediction is wrong if a part is elsewhere by this share of its move; a number is then trusted for this share of its
+#: change.
+WRONG, NEARER = 0.25, 0.4
+#: Changes that are tried without a promise, in widths; how many in a row of numbers, and of words.
+LADDER, NUMBERS, WORDS = (-2.0, -1.0, -0.5, -0.25, 0.25, 0.5, 1.0, 2.0), 16, 16
+#: Numbers are as good as those of an earlier run within this share of their changes.
+SAME = 0.06
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,7 +101,7 @@ class _Node:
     @property
     def is_violated(self) -> bool:
         """Whether something is predicted to be violated."""
-        return bool(self.rest) or bool(self.pairs.any() or self.alone.any() or self.rooms.any())
+        return any(self.rest.values()) or bool(self.pairs.any() or self.alone.any() or self.rooms.any())
 
 
 @dataclass(frozen=True)
@@ -146,8 +154,15 @@ class Repairing:
         self.volumes = np.prod(np.maximum(base.boxes[:, 1] - base.boxes[:, 0], 1e-9), axis=-1)
         self.first = max(base.violated, 1e-12)
         self.hopes: dict[tuple[str, tuple[str, ...]], float] = {}
+        #: Where the parts of each violation were, and how far it was violated, in the runs in which they were elsewhere.
+        self.seen: dict[tuple[str, tuple[str, ...]], list[tuple[Array, float]]] = {}
         self.base = self.priced(base)
         self.trials = [self.base]
+        self._note(self.base)
+        #: How far the derivatives of a number are trusted, where that is known.
+        self.reach: dict[str, float] = {}
+        self._tried = 0
+        self.trends: dict[tuple[str, tuple[str, ...]], tuple[Array, float, Array]] = {}
         rules.learn(base.boxes, base.violations)
 
     @property
@@ -168,12 +183,15 @@ class Repairing:
             before = self.best
             values = self.proposal()
             if values is None and before.violations:
-                values = next(self.alternatives(), None)
+                values = self.alternatives()
             if values is None:
                 break
             trial = self.tell(self.evaluate([values])[0])
             report(trial)
-            stalled = 0 if trial.cost < before.cost - 1e-9 else stalled + 1
+            if trial.cost < before.cost - 1e-9:
+                stalled = self._tried = 0
+            else:
+                stalled += 1
             polished += not before.violations
         failures = 0
         while self.left > 0 and failures < PATIENCE and 0 < self.answers < patches:
@@ -209,12 +227,62 @@ class Repairing:
         trial = self.priced(trial)
         self.trials.append(trial)
         if trial.boxes is not None and not trial.failed:
+            self._note(trial)
+            self._trust(trial)
             still = {row.key for row in trial.violations}
             for key in self.hopes:
                 if key in still and any(self._moves(name, key) for name in trial.values):
                     self.hopes[key] *= 0.5
             self.rules.learn(trial.boxes, trial.violations)
         return trial
+
+    def _note(self, trial: Trial) -> None:
+        """Note where the parts of violations of the first run are, and how far they are violated now."""
+        assert trial.boxes is not None
+        amounts = {row.key: row.amount for row in trial.violations}
+        for row in (*self.base.violations, *trial.violations):
+            place = self._place(trial.boxes, row.key)
+            rows = self.seen.setdefault(row.key, [])
+            if place is not None and all(np.abs(place - other).max() > self.rules.touch for other, _ in rows):
+                rows.append((place, amounts.get(row.key, 0.0)))
+
+    def _trust(self, trial: Trial) -> None:
+        """Trust the derivatives of a number less far where a run shows them to be wrong, and further where right."""
+        assert trial.boxes is not None and self.base.boxes is not None
+        predicted = self.base.boxes.copy()
+        for key, value in trial.values.items():
+            if key in self.slopes:
+                predicted += (value - self.rows[key].value) * self.slopes[key]
+        far = np.abs(predicted - self.base.boxes).max(axis=(1, 2))
+        off = np.abs(predicted - trial.boxes).max(axis=(1, 2))
+        wrong = off > np.maximum(WRONG * far, 5 * self.rules.touch)
+        for key, value in trial.values.items():
+            if key not in self.slopes:
+                continue
+            step = abs(value - self.rows[key].value)
+            if self.slopes[key][wrong].any():
+                self.reach[key] = min(self.reach.get(key, math.inf), NEARER * step)
+            elif step > 0.5 * self.reach.get(key, math.inf):
+                self.reach[key] = 2.0 * step
+
+    def _place(self, boxes: Array, key: tuple[str, tuple[str, ...]]) -> Array | None:
+        """Return the middle of a violation's part, or how far that of the first is from that of the second."""
+        places = [self.rules.index[part] for part in key[1] if part in self.rules.index]
+        if not 1 <= len(places) <= 2:
+            return None
+        middles = boxes[..., places, :, :].mean(axis=-2)
+        return np.asarray(middles[..., 0, :] - middles[..., 1, :] if len(places) == 2 else middles[..., 0, :])
+
+    def _trend(self, key: tuple[str, tuple[str, ...]]) -> tuple[Array, float, Array] | None:
+        """Return a place, its amount, and the derivative of the amount, if runs have shown it."""
+        rows = [row for row in self.seen.get(key, []) if row[1] > 0.0]
+        if len(rows) < 2:
+            return None
+        place, amount = min(rows, key=lambda row: row[1])
+        others = [row for row in rows if row[0] is not place][-3:]
+        steps = np.array([other - place for other, _ in others])
+        slope = np.linalg.lstsq(steps, np.array([other - amount for _, other in others]), rcond=1e-3)[0]
+        return (place, amount, slope) if np.abs(slope).max() > 0.0 else None
 
     def _moves(self, name: str, key: tuple[str, tuple[str, ...]]) -> bool:
         slope = self.slopes.get(name)
@@ -281,7 +349,7 @@ class Repairing:
                 self.trials.append(run)
                 used.append(number)
                 if run.boxes is not None:
-                    moved.append((run.boxes - self.base.boxes).ravel())
+                    moved.append(_middles(run.boxes - self.base.boxes).ravel())
             good = [number for number, run in zip(used, self.trials[1:], strict=True) if run.boxes is not None]
             if len(good) < 3:
                 return self._one_by_one(rows, unit)
@@ -292,8 +360,13 @@ class Repairing:
             if explained[matters.ravel()].all():
                 break
             count = 3
+        else:
+            if len(rows) < self.left // 2:
+                return self._one_by_one(rows, unit)
+        middles = table.reshape(len(rows), -1, 2, 3)
+        table = np.stack([middles[:, :, 0] - middles[:, :, 1], middles[:, :, 0] + middles[:, :, 1]], axis=2)
         table[np.abs(table) < 1e-6] = 0.0
-        return table
+        return table.reshape(len(rows), -1)
 
     def proposal(self, others: bool = False) -> dict[str, float] | None:
         """Return the numbers of the next run; None if no plan promises a gain.
@@ -304,7 +377,6 @@ class Repairing:
             Whether to look for repairs by sets of literals that do not repair the script yet.
         """
         best, known = self.best, self._repairing()
-        seen = {tuple(sorted(trial.values.items())) for trial in self.trials}
         starts = [self.base]
         for trial in sorted(self.trials, key=lambda trial: trial.cost)[:2]:
             if trial is not self.base and trial.boxes is not None and math.isfinite(trial.cost):
@@ -318,30 +390,81 @@ class Repairing:
                 return None
             if others and (frozenset(plan.values) in known or plan.is_violated):
                 continue
-            if tuple(sorted(plan.values.items())) not in seen:
+            if not self._is_like_earlier(plan.values):
                 return plan.values
         return None
 
-    def alternatives(self) -> Iterator[dict[str, float]]:
-        """Return changes of words and counts, each alone, at the best run."""
-        seen = {tuple(sorted(trial.values.items())) for trial in self.trials}
-        best = self.best
-        for key, row in self.rows.items():
-            here = best.values.get(key, row.value)
-            others: list[float] = []
-            if row.kind == "word":
-                others = [float(n) for n in range(len(row.words)) if n != here]
-            elif row.kind == "count":
-                others = [here - 1, here + 1]
-            for other in others:
-                values = {**best.values, key: other}
-                if values[key] == row.value:
-                    del values[key]
-                if tuple(sorted(values.items())) not in seen:
-                    yield values
+    def _is_like_earlier(self, values: Mapping[str, float]) -> bool:
+        """Tell whether a run with about the same numbers is known."""
+        for trial in self.trials:
+            if trial.values.keys() == values.keys() and all(
+                abs(values[key] - value) <= SAME * abs(value - self.rows[key].value)
+                for key, value in trial.values.items()
+            ):
+                return True
+        return False
 
-    def plan(self, start: Trial) -> list[_Node]:
-        """Return predicted runs, by a beam of changes from a run."""
+    def alternatives(self) -> dict[str, float] | None:
+        """Return the best run with one literal changed, though no rule promises a gain; None if all are known.
+
+        Numbers that move what is violated come first, those of least predicted cost if the violation ended; then words
+        and counts, those near the names and lines of what is violated.
+        """
+        best = self.best
+        assert best.boxes is not None
+        node = self._node(best)
+        options: list[tuple[float, dict[str, float]]] = []
+        lines: set[int] = set()
+        for row in best.violations:
+            places = [self.rules.index[name] for name in row.parts if name in self.rules.index]
+            item = _Item(row.amount, "rest", tuple(places), None, row.key)
+            for key, slope in self.slopes.items():
+                if not slope[places].any():
+                    continue
+                literal = self.rows[key]
+                lines.add(literal.line)
+                here = best.values.get(key, literal.value)
+                steps = [self.widths[key] * share for share in LADDER]
+                steps += list(self._steps(node, item, slope, self.widths[key]))
+                values = sorted({value for step in steps for value in rounded(here, here + step, literal.value)[:1]})
+                for value, cost in zip(values, self._costs(node, key, np.array(values), None), strict=True):
+                    options.append((float(cost) - ALL * row.amount / self.first, self._with(best, key, value)))
+        options.sort(key=lambda option: option[0])
+        tried = self._tried
+        if tried < NUMBERS:
+            for _, values in options:
+                if not self._is_like_earlier(values):
+                    self._tried += 1
+                    return values
+        about = {word.lower() for row in best.violations for part in row.parts for word in re.findall(r"[A-Za-z]{3,}", part)}
+        others: list[tuple[float, dict[str, float]]] = []
+        for key, literal in self.rows.items():
+            here = best.values.get(key, literal.value)
+            named = any(word in name.lower() or name.lower() in about for word in about for name in literal.names)
+            far = min((abs(literal.line - line) for line in lines), default=0)
+            if literal.kind == "word":
+                others += [
+                    (far - (1000 if named else 0), self._with(best, key, float(number)))
+                    for number in range(len(literal.words))
+                    if number != here
+                ]
+            elif literal.kind == "count":
+                others += [(500 + far, self._with(best, key, here + step)) for step in (-1, 1)]
+        others.sort(key=lambda option: option[0])
+        for _, values in others[:WORDS]:
+            if not self._is_like_earlier(values):
+                return values
+        return None
+
+    def _with(self, trial: Trial, key: str, value: float) -> dict[str, float]:
+        """Return the numbers of a run with another value of one literal."""
+        values = {**trial.values, key: value}
+        if value == self.rows[key].value:
+            del values[key]
+        return values
+
+    def _node(self, start: Trial) -> _Node:
+        """Return what is predicted for a run that is known."""
         assert start.boxes is not None
         rules, every = self.rules, np.arange(len(self.rules.names))
         pairs, alone, rooms = (
@@ -350,6 +473,7 @@ class Repairing:
             rules.rooms(start.boxes),
         )
         rest = {}
+        self.trends = {}
         zones = list(rules.zones)
         for row in start.violations:
             places = [rules.index[name] for name in row.parts if name in rules.index]
@@ -366,14 +490,24 @@ class Repairing:
             if not is_known:
                 rest[row.key] = row.amount
                 self.hopes.setdefault(row.key, HOPE)
+                trend = self._trend(row.key)
+                if trend is not None:
+                    self.trends[row.key] = trend
         node = _Node(dict(start.values), start.boxes, pairs, alone, rooms, rest)
         node.cost = self._cost(node)
-        nodes, beam = [], [node]
+        return node
+
+    def plan(self, start: Trial) -> list[_Node]:
+        """Return predicted runs, by a beam of changes from a run."""
+        node = self._node(start)
+        nodes: list[_Node] = []
+        beam = [node]
         known = {tuple(sorted(node.values.items()))}
-        for _ in range(DEPTH):
+        lowest, level = node.cost, 0
+        for depth in range(DEPTH):
             children: list[tuple[float, _Node, str, float, tuple[tuple[str, tuple[str, ...]], float] | None]] = []
             for parent in beam:
-                children += self._children(parent)
+                children += self._children(parent, ATTENDED if depth == 0 else 0)
             children.sort(key=lambda child: child[0])
             beam = []
             for _, parent, key, value, eased in children:
@@ -386,11 +520,15 @@ class Repairing:
                 nodes.append(child)
                 if len(beam) == BEAM:
                     break
-            if not beam or min(child.cost for child in beam) > min(n.cost for n in nodes) + 2 * NUMBER:
+            if not beam:
+                break
+            level = 0 if min(child.cost for child in beam) < lowest else level + 1
+            lowest = min(lowest, *(child.cost for child in beam))
+            if level == 2:
                 break
         return nodes
 
-    def _items(self, node: _Node) -> list[_Item]:
+    def _items(self, node: _Node, hopes: int) -> list[_Item]:
         """Return the predicted violations, the largest first, and those that nothing explains."""
         items = [
             _Item(node.pairs[a, b], "pair", (int(a), int(b))) for a, b in np.argwhere(np.triu(node.pairs) > 0)
@@ -408,14 +546,15 @@ class Repairing:
             if amount > 0
         ]
         rest.sort(key=lambda item: -item.cost)
-        return items[:ATTENDED] + rest[: 1 if items else ATTENDED]
+        known = [item for item in rest if item.key in self.trends]
+        return items[:ATTENDED] + known[:2] + [item for item in rest if item.key not in self.trends][:hopes]
 
     def _children(
-        self, node: _Node
+        self, node: _Node, hopes: int
     ) -> list[tuple[float, _Node, str, float, tuple[tuple[str, tuple[str, ...]], float] | None]]:
         out: list[tuple[float, _Node, str, float, tuple[tuple[str, tuple[str, ...]], float] | None]] = []
         wanted: dict[tuple[str, tuple[tuple[str, tuple[str, ...]], float] | None], set[float]] = {}
-        for item in self._items(node):
+        for item in self._items(node, hopes):
             movers = [
                 (int((np.abs(slope).max(axis=(1, 2)) > 0).sum()), key)
                 for key, slope in self.slopes.items()
@@ -427,7 +566,7 @@ class Repairing:
                 if item.key is not None:
                     eased = (item.key, self.hopes[item.key])
                 for step in self._steps(node, item, self.slopes[key], self.widths[key]):
-                    wanted.setdefault((key, eased), set()).update(rounded(here, here + step))
+                    wanted.setdefault((key, eased), set()).update(rounded(here, here + step, row.value))
                 if here != row.value:
                     wanted.setdefault((key, None), set()).add(row.value)
         for key in node.values:
@@ -435,7 +574,10 @@ class Repairing:
         for (key, eased), values in wanted.items():
             if key not in self.slopes:
                 continue
-            options = np.array(sorted(values))
+            reach = self.reach.get(key, math.inf)
+            options = np.array(sorted(value for value in values if abs(value - self.rows[key].value) <= reach))
+            if not len(options):
+                continue
             costs = self._costs(node, key, options, eased)
             order = np.argsort(costs)[: 2 * BEAM]
             out += [(float(costs[k]), node, key, float(options[k]), eased) for k in order]
@@ -474,7 +616,22 @@ class Repairing:
                         off = self.rules.room[side, axis] - node.boxes[a, side, axis]
                         if slope[a, side, axis] and off:
                             steps.append(off / slope[a, side, axis])
-            steps += [width * share for share in (-2.0, -1.0, -0.5, 0.5, 1.0, 2.0)]
+                trend = None if item.key is None else self.trends.get(item.key)
+                if trend is not None and item.key is not None:
+                    here = self._place(node.boxes, item.key)
+                    along = self._place(slope, item.key)
+                    assert here is not None and along is not None
+                    falls = float(along @ trend[2])
+                    if falls:
+                        steps.append(-(trend[1] + float((here - trend[0]) @ trend[2])) / falls)
+                    continue
+                # An amount may be a distance, in the unit of overlaps.
+                far = item.cost / self.rules.scale
+                for axis in range(3):
+                    if slope[a, 0, axis]:
+                        steps += [far / slope[a, 0, axis], -far / slope[a, 0, axis]]
+            if item.key not in self.trends:
+                steps += [-width, width]
         yield from (step for step in steps if 0.0 < abs(step) <= reach)
 
     def _standing(self, node: _Node, part: int, slope: Array) -> Iterator[float]:
@@ -489,9 +646,20 @@ class Repairing:
                 if relative:
                     at = base[part, 0, axis] - base[support, 0, axis]
                     yield (at - (node.boxes[part, 0, axis] - node.boxes[support, 0, axis])) / relative
+        bottom = node.boxes[part, 0, up]
+        level = np.abs(node.boxes[:, 1, up] - bottom) <= 10 * self.rules.touch
+        level[part] = False
+        for other in np.flatnonzero(level)[:TRIED]:
+            # Above the middle of what is as high as its lowest point, or just above its edge.
+            for axis in (axis for axis in range(3) if axis != up):
+                relative = slope[part].mean(axis=0)[axis] - slope[other].mean(axis=0)[axis]
+                low, high = node.boxes[other, :, axis]
+                at = float(node.boxes[part].mean(axis=0)[axis])
+                if relative:
+                    inside = min(max(at, low + 0.1 * (high - low)), high - 0.1 * (high - low))
+                    yield (inside - at) / relative
         if not slope[part, 0, up]:
             return
-        bottom = node.boxes[part, 0, up]
         yield (self.rules.base[:, 0, up].min() - bottom) / slope[part, 0, up]
         flat = [axis for axis in range(3) if axis != up]
         middle = node.boxes[part].mean(axis=0)[flat]
@@ -520,11 +688,10 @@ class Repairing:
         number = 0.5 * (node.pairs > 0).sum() - (old > 0).sum() + 0.5 * (old[:, touched] > 0).sum()
         number = number + (rows > 0).sum(axis=(1, 2)) - 0.5 * (among > 0).sum(axis=(1, 2))
         alone, rooms = rules.alone(boxes), rules.rooms(boxes)
-        rest = sum(node.rest.values())
-        if eased is not None:
-            rest -= eased[1] * node.rest.get(eased[0], 0.0)
-        total = np.maximum(total, 0.0) + alone.sum(axis=1) + rooms.sum(axis=(1, 2)) + rest
-        number = number + (alone > 0).sum(axis=1) + (rooms > 0).sum(axis=(1, 2)) + len(node.rest)
+        total = np.maximum(total, 0.0) + alone.sum(axis=1) + rooms.sum(axis=(1, 2))
+        number = number + (alone > 0).sum(axis=1) + (rooms > 0).sum(axis=(1, 2))
+        for name, amount in self._rest(node, boxes, eased).items():
+            total, number = total + amount, number + (amount > 0)
         # Differences of sums round.
         total = np.where(total < 1e-9 * self.first, 0.0, total)
         others = {name: value for name, value in node.values.items() if name != key}
@@ -534,6 +701,26 @@ class Repairing:
         return np.asarray(
             ALL * total / self.first + EACH * number + NUMBER * changed + FAR * self._far(boxes) + WIDE * wide
         )
+
+    def _rest(
+        self,
+        node: _Node,
+        boxes: Array,
+        eased: tuple[tuple[str, tuple[str, ...]], float] | None,
+    ) -> dict[tuple[str, tuple[str, ...]], Array]:
+        """Return what is left of violations that no rule explains, by their trends, or by hope."""
+        out = {}
+        for key, amount in node.rest.items():
+            trend = self.trends.get(key)
+            if trend is not None:
+                place = self._place(boxes, key)
+                assert place is not None
+                there = trend[1] + (place - trend[0]) @ trend[2]
+                # Where amounts are whole, the last of them may be 0.
+                out[key] = np.where(there > 0.01 * trend[1], there, 0.0)
+            else:
+                out[key] = np.full(len(boxes), amount * (1.0 - eased[1] if eased and eased[0] == key else 1.0))
+        return out
 
     def _child(
         self,
@@ -548,9 +735,7 @@ class Repairing:
         values = {**node.values, key: value}
         if value == self.rows[key].value:
             del values[key]
-        rest = dict(node.rest)
-        if eased is not None and eased[0] in rest:
-            rest[eased[0]] *= 1.0 - eased[1]
+        rest = {name: float(amount[0]) for name, amount in self._rest(node, boxes[None], eased).items()}
         child = _Node(
             values, boxes, rules.pairs(boxes, boxes, every), rules.alone(boxes), rules.rooms(boxes), rest
         )
@@ -559,7 +744,8 @@ class Repairing:
 
     def _cost(self, node: _Node) -> float:
         total = 0.5 * node.pairs.sum() + node.alone.sum() + node.rooms.sum() + sum(node.rest.values())
-        number = 0.5 * (node.pairs > 0).sum() + (node.alone > 0).sum() + (node.rooms > 0).sum() + len(node.rest)
+        number = 0.5 * (node.pairs > 0).sum() + (node.alone > 0).sum() + (node.rooms > 0).sum()
+        number += sum(amount > 0 for amount in node.rest.values())
         return float(ALL * total / self.first + EACH * number) + self.change(node.values, node.boxes)
 
     def change(self, values: Mapping[str, float], boxes: Array) -> float:
@@ -572,3 +758,8 @@ class Repairing:
         assert self.base.boxes is not None
         far = np.linalg.norm(boxes - self.base.boxes, axis=-1).max(axis=-1)
         return np.asarray(far @ self.volumes / max(float(self.volumes.sum()) * self.rules.size, 1e-300))
+
+
+def _middles(boxes: Array) -> Array:
+    """Return the middles and the halves of boxes, in place of their corners: fewer numbers decide each of them."""
+    return np.stack([boxes.mean(axis=1), 0.5 * (boxes[:, 1] - boxes[:, 0])], axis=1)

@@ -47,32 +47,31 @@ def digits(row: Literal, value: float) -> str:
     return text if "." in text or row.is_whole else f"{text}.0"
 
 
-def rounded(start: float, value: float, is_count: bool = False) -> list[float]:
+def rounded(start: float, value: float, original: float | None = None) -> list[float]:
     """Return values like one, further from `start`, with few digits: the coarsest first that is near, then finer.
 
     Parameters
     ----------
     start
-        The value as written.
+        A value that is not far enough.
     value
         A value that is far enough from it.
-    is_count
-        Whether only whole numbers are possible.
+    original
+        The value as written, if it is another.
     """
     change = value - start
     if change == 0.0 or not math.isfinite(value):
         return []
-    if is_count:
-        return [float(math.ceil(value - 1e-9) if change > 0 else math.floor(value + 1e-9))]
     out: list[float] = []
-    power = math.floor(math.log10(abs(change))) + 1
+    far = max(abs(change), 0.0 if original is None else abs(value - original))
+    power = math.floor(math.log10(far)) + 1
     for exponent in range(power, power - 5, -1):
         for share in STEPS[:2] if exponent > power - 4 else STEPS[:1]:
             step = share * 10.0**exponent
             count = value / step
             near = math.ceil(count - 1e-7) if change > 0 else math.floor(count + 1e-7)
             result = float(f"{near * step:.12g}")
-            if abs(result - value) <= ROUNDED * abs(change) and result not in out:
+            if abs(result - value) <= ROUNDED * far and result not in out:
                 out.append(result)
                 if len(out) == 2:
                     return out
