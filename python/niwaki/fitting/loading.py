@@ -14,7 +14,6 @@ from niwaki.fitting.functions import FunctionGenerator
 from niwaki.fitting.generator import Generator
 from niwaki.fitting.openscad import ScadGenerator, scad
 
-
 #: How generators are made again, by the kinds of their recipes.
 KINDS: dict[str, Callable[[Mapping[str, Any]], Generator]] = {
     "function": FunctionGenerator.of_recipe,

@@ -22,7 +22,9 @@ def conflicts_of(search: Repairing) -> Iterator[Conflict]:
             if not others:
                 others = _names(min(keeping, key=lambda trial: trial.violated))
             listed = ", ".join(others[:SHOWN])
-            yield Conflict(words, others, f"{words} stands against {listed}: runs that keep the one break the other")
+            yield Conflict(
+                words, others, f"{words} stands against {listed}: runs that keep the one break the other"
+            )
             continue
         yield Conflict(words, (), f"{words} is broken in every run: {_cause(search, row.parts)}")
 

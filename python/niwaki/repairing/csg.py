@@ -23,7 +23,9 @@ from niwaki.errors.extras import optional
 from niwaki.fitting.commands import SHOWN
 from niwaki.fitting.openscad import PROGRAM
 
-_TOKEN = re.compile(r'"(?:\\.|[^"\\])*"|\$?[A-Za-z_]\w*|-?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-{}()\[\],=;#%*!:]')
+_TOKEN = re.compile(
+    r'"(?:\\.|[^"\\])*"|\$?[A-Za-z_]\w*|-?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-{}()\[\],=;#%*!:]'
+)
 #: Words before an object's own name.
 PLACING = {"translate", "rotate", "scale", "mirror", "color", "multmatrix", "render", "resize"}
 
@@ -172,7 +174,11 @@ def solid(node: Node, kernel: Any) -> Any:
         angles = (np.arange(rings) + 0.5) * math.pi / rings
         circle = np.arange(count) * 2.0 * math.pi / count
         points = [
-            (args["r"] * math.sin(a) * math.cos(t), args["r"] * math.sin(a) * math.sin(t), args["r"] * math.cos(a))
+            (
+                args["r"] * math.sin(a) * math.cos(t),
+                args["r"] * math.sin(a) * math.sin(t),
+                args["r"] * math.cos(a),
+            )
             for a in angles
             for t in circle
         ]
@@ -247,4 +253,5 @@ def fragments(radius: float, arguments: dict[str, Any]) -> int:
         return 3
     if arguments["$fn"] > 0.0:
         return int(max(arguments["$fn"], 3.0))
-    return math.ceil(max(min(360.0 / arguments["$fa"], radius * 2.0 * math.pi / arguments["$fs"]), 5.0))
+    least: float = max(min(360.0 / arguments["$fa"], radius * 2.0 * math.pi / arguments["$fs"]), 5.0)
+    return math.ceil(least)

@@ -1,8 +1,8 @@
 """`nw.repair`: a script that breaks requirements, repaired by few of its own numbers.
 
-    repair = nw.repair("room.py", nw.Keep(collisions=False, within=((-2, 0, -2), (2, 2.6, 2))))
-    print(repair.best.difference())
-    repair.best.apply()
+repair = nw.repair("room.py", nw.Keep(collisions=False, within=((-2, 0, -2), (2, 2.6, 2))))
+print(repair.best.difference())
+repair.best.apply()
 """
 
 from __future__ import annotations
@@ -107,7 +107,9 @@ def repair(
     if axis not in ("y", "z"):
         raise bad("up", up, '"y" or "z"', '"y"')
     if goal is None and run is None:
-        raise bad("goal", None, "`nw.Keep(...)`, the path of a requirements.toml, or a function", "`nw.Keep(...)`")
+        raise bad(
+            "goal", None, "`nw.Keep(...)`, the path of a requirements.toml, or a function", "`nw.Keep(...)`"
+        )
     judge: Keep | Judge | None = goal if goal is None or callable(goal) else keep_of(goal)
     text = bytes_of(place, "model").decode()
     try:
@@ -231,5 +233,3 @@ class _Runs:
         else:
             rows = [Violation(name, tuple(parts), float(amount)) for name, parts, amount in reply.facts]
         return tuple(row for row in rows if row.amount > 0.0)
-
-

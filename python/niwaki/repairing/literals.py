@@ -3,7 +3,7 @@
 | kind | which literals | width: one standard deviation of the prior |
 | --- | --- | --- |
 | length | every other number | a quarter of it, at least 2 % of the scene |
-| count | whole numbers that a loop, an index or a repetition uses; whole factors and powers are fixed | 1, or a quarter of it |
+| count | whole numbers that a loop uses; small whole factors and powers are fixed | 1, or a quarter of it |
 | angle | arguments of functions and names of angles | 15 degrees |
 | colour | arguments and names of colours | 0.15 of a channel's range |
 | word | names that the caller says may replace one another | each the same |
@@ -22,10 +22,36 @@ from dataclasses import dataclass, replace
 
 #: Names of sizes, angles and colours, as parts of names between underscores.
 SIZES = {
-    *("size", "width", "depth", "height", "length", "thickness", "thick", "radius", "diameter", "scale", "d", "h"),
+    *(
+        "size",
+        "width",
+        "depth",
+        "height",
+        "length",
+        "thickness",
+        "thick",
+        "radius",
+        "diameter",
+        "scale",
+        "d",
+        "h",
+    ),
     *("r", "r1", "r2", "d1", "d2", "w"),
 }
-ANGLES = {"angle", "angles", "rotation", "rotate", "rot", "yaw", "pitch", "roll", "turn", "degrees", "radians", "a"}
+ANGLES = {
+    "angle",
+    "angles",
+    "rotation",
+    "rotate",
+    "rot",
+    "yaw",
+    "pitch",
+    "roll",
+    "turn",
+    "degrees",
+    "radians",
+    "a",
+}
 COLOURS = {"color", "colour", "colors", "colours", "rgb", "rgba"}
 #: Functions whose numbers are counts or places in a list.
 COUNTING = {"range", "linspace", "round", "islice", "repeat"}
@@ -175,7 +201,9 @@ def _of_python(text: str, words: list[tuple[str, ...]]) -> Iterator[Literal]:
     def walk(node: ast.AST, names: tuple[str, ...], called: str, state: str, sign: int) -> Iterator[Literal]:
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.UAdd):
             if isinstance(node.operand, ast.Constant):
-                yield from number(node, node.operand, isinstance(node.op, ast.USub), names, called, state, sign)
+                yield from number(
+                    node, node.operand, isinstance(node.op, ast.USub), names, called, state, sign
+                )
                 return
         if isinstance(node, ast.Constant):
             yield from number(node, node, False, names, called, state, sign)
@@ -222,24 +250,31 @@ def _of_python(text: str, words: list[tuple[str, ...]]) -> Iterator[Literal]:
         elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
             about = () if isinstance(node, ast.Lambda) else (node.name,)
             every = [*node.args.posonlyargs, *node.args.args]
-            for argument, default in zip(every[len(every) - len(node.args.defaults) :], node.args.defaults, strict=True):
-                counted = "count" if argument.arg in counts else state
-                yield from walk(default, (argument.arg, *about), "", counted, -1)
-            for argument, other in zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True):
+            later = every[len(every) - len(node.args.defaults) :]
+            for parameter, default in zip(later, node.args.defaults, strict=True):
+                counted = "count" if parameter.arg in counts else state
+                yield from walk(default, (parameter.arg, *about), "", counted, -1)
+            for only, other in zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True):
                 if other is not None:
-                    yield from walk(other, (argument.arg, *about), "", state, -1)
-            for entry in node.body if isinstance(node.body, list) else [node.body]:
-                yield from walk(entry, about, "", state, -1)
+                    yield from walk(other, (only.arg, *about), "", state, -1)
+            for statement in node.body if isinstance(node.body, list) else [node.body]:
+                yield from walk(statement, about, "", state, -1)
         elif isinstance(node, ast.Dict):
-            for key, value in zip(node.keys, node.values, strict=True):
+            for key, inner in zip(node.keys, node.values, strict=True):
                 word = key.value if isinstance(key, ast.Constant) and isinstance(key.value, str) else ""
-                yield from walk(value, (word, *names) if word else names, called, state, -1)
+                yield from walk(inner, (word, *names) if word else names, called, state, -1)
         else:
             for child in ast.iter_child_nodes(node):
                 yield from walk(child, names, called, state, -1)
 
     def number(
-        node: ast.expr, inner: ast.Constant, minus: bool, names: tuple[str, ...], called: str, state: str, sign: int
+        node: ast.expr,
+        inner: ast.Constant,
+        minus: bool,
+        names: tuple[str, ...],
+        called: str,
+        state: str,
+        sign: int,
     ) -> Iterator[Literal]:
         if isinstance(inner.value, bool) or not isinstance(inner.value, int | float):
             return
@@ -264,7 +299,9 @@ def _of_python(text: str, words: list[tuple[str, ...]]) -> Iterator[Literal]:
             if isinstance(outer.op, ast.Div | ast.FloorDiv | ast.Mod | ast.Pow):
                 factors |= sides
             elif isinstance(outer.op, ast.Mult):
-                factors |= {side for side in sides if isinstance(side, ast.Constant) and _is_formula(side.value)}
+                factors |= {
+                    side for side in sides if isinstance(side, ast.Constant) and _is_formula(side.value)
+                }
     yield from walk(tree, (), "", "", -1)
 
 
@@ -316,7 +353,11 @@ def _of_scad(text: str) -> Iterator[Literal]:
             assigned = argument = ""
         elif word == ",":
             argument = argument if _inside_list(tokens, number) else ""
-        elif re.match(r"\$?[A-Za-z_]", word) and after == "=" and tokens[min(number + 2, len(tokens) - 1)][1] != "=":
+        elif (
+            re.match(r"\$?[A-Za-z_]", word)
+            and after == "="
+            and tokens[min(number + 2, len(tokens) - 1)][1] != "="
+        ):
             if stack and stack[-1]:
                 argument = word
             else:

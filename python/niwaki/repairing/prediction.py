@@ -98,7 +98,7 @@ def _explanation(steps: Array, gram: Array, target: Array) -> tuple[list[int], A
     # More: the best pairs are extended by the number that explains most of the rest.
     order = np.argsort(-share, axis=None)[: 2 * KEPT]
     supports = {tuple(sorted(map(int, np.unravel_index(int(place), share.shape)))) for place in order}
-    weights = np.zeros(2)
+    weights: Array = np.zeros(2)
     for _ in range(3, runs - 1):
         extended: dict[tuple[int, ...], float] = {}
         for support in supports:
@@ -165,7 +165,8 @@ class Rules:
         out = np.full(len(boxes), -2)
         for number in range(len(boxes)):
             over = (
-                (middle[number] >= boxes[:, 0, flat] - self.touch) & (middle[number] <= boxes[:, 1, flat] + self.touch)
+                (middle[number] >= boxes[:, 0, flat] - self.touch)
+                & (middle[number] <= boxes[:, 1, flat] + self.touch)
             ).all(axis=1)
             near = over & (np.abs(bottom[number] - top) <= 10 * self.touch)
             near[number] = False
@@ -220,7 +221,9 @@ class Rules:
     def alone(self, boxes: Array) -> Array:
         """Return what each part costs alone: outside of the room, off what it stood on. (..., parts)."""
         low, high = boxes[..., 0, :], boxes[..., 1, :]
-        out = np.maximum(self.room[0] - low, 0.0).max(axis=-1) + np.maximum(high - self.room[1], 0.0).max(axis=-1)
+        out = np.maximum(self.room[0] - low, 0.0).max(axis=-1) + np.maximum(high - self.room[1], 0.0).max(
+            axis=-1
+        )
         out = np.where(out > self.touch, out, 0.0)
         up, flat = self.up, [axis for axis in range(3) if axis != self.up]
         stands = np.flatnonzero(self.support >= 0)

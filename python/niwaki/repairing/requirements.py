@@ -5,8 +5,8 @@
     supported = true                            # whether each part has to stand on the ground or on another part
     height = [2.0, 2.6]                         # the least and the largest height
 
-They are the part of a `requirements.toml` that needs no search (`niwaki.shell.requirements` has the rest). Lengths are in
-units of the scene.
+They are the part of a `requirements.toml` that needs no search (`niwaki.shell.requirements` has the rest). Lengths are
+in units of the scene.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from msgspec import Meta, Struct
 from niwaki import _engine
 from niwaki.errors import InputError
 from niwaki.errors.schema import Unfit, fitted
+from niwaki.errors.settings import bad
 from niwaki.inputs.files import text_of
 from niwaki.inputs.texts import toml_of
 from niwaki.repairing.prediction import TOUCHING, Array, depths, overlaps
@@ -75,11 +76,14 @@ class Keep(Struct, frozen=True, forbid_unknown_fields=True):
         if self.within is not None:
             low, high = np.array(self.within)
             off = np.maximum(low - boxes[:, 0], boxes[:, 1] - high).max(axis=1)
-            out += [Violation("within", (names[n],), float(off[n])) for n in np.flatnonzero(off > 1e-9 * size)]
+            out += [
+                Violation("within", (names[n],), float(off[n])) for n in np.flatnonzero(off > 1e-9 * size)
+            ]
         if self.supported:
             off = _unsupported(boxes, up)
             out += [
-                Violation("supported", (names[n],), float(off[n])) for n in np.flatnonzero(off > TOUCHING * size)
+                Violation("supported", (names[n],), float(off[n]))
+                for n in np.flatnonzero(off > TOUCHING * size)
             ]
         if self.height is not None:
             top = int(np.argmax(boxes[:, 1, up]))
@@ -101,9 +105,9 @@ def keep_of(goal: Any) -> Keep:
     if isinstance(goal, Keep):
         return goal
     if not isinstance(goal, str | PathLike):
-        from niwaki.errors.settings import bad
-
-        raise bad("goal", goal, "`nw.Keep(...)`, the path of a requirements.toml, or a function", "`nw.Keep(...)`")
+        raise bad(
+            "goal", goal, "`nw.Keep(...)`, the path of a requirements.toml, or a function", "`nw.Keep(...)`"
+        )
     place = Path(goal)
     table = toml_of(text_of(place, "preset", "requirements"), place)
     try:

@@ -45,9 +45,7 @@ class Patch(FileChange):
         """Return it as JSON."""
         return {
             "difference": self.difference(),
-            "edits": [
-                {"line": edit.line, "before": edit.before, "after": edit.after} for edit in self.edits
-            ],
+            "edits": [{"line": edit.line, "before": edit.before, "after": edit.after} for edit in self.edits],
             "moved": self.moved,
             "violations": [list_of(row) for row in self.violations],
         }

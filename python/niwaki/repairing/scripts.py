@@ -112,7 +112,7 @@ class ScriptGenerator(Generator):
         self.name, self.space = path.name, None
         self.rows = {row.key: row for row in rows}
         self._runner = None if run is None else FunctionGenerator.__new__(FunctionGenerator)
-        if self._runner is not None:
+        if self._runner is not None and run is not None:
             self._runner.function = run
             self._runner.name = getattr(run, "__name__", "run")
 
@@ -136,7 +136,9 @@ class ScriptGenerator(Generator):
             made = self._python(text)
         facts = made.violations if isinstance(made, Made) else []
         parts = {name: _mesh(part) for name, part in parts_of(made).items()}
-        return Called(None, parts=parts, facts=[[row.requirement, list(row.parts), row.amount] for row in facts])
+        return Called(
+            None, parts=parts, facts=[[row.requirement, list(row.parts), row.amount] for row in facts]
+        )
 
     def _python(self, text: str) -> Any:
         try:
@@ -269,9 +271,13 @@ def split(path: str | Path) -> tuple[Path, str]:
         `unknown-model`: there is no such file.
     """
     text = str(path)
-    place, _, function = text.rpartition(":") if not text.lower().endswith((".py", ".scad")) else (text, "", "")
+    place, _, function = (
+        text.rpartition(":") if not text.lower().endswith((".py", ".scad")) else (text, "", "")
+    )
     if not Path(place).is_file():
-        raise InputError("unknown-model", name=text, reason=f"there is no file {Path(place or text).absolute()}")
+        raise InputError(
+            "unknown-model", name=text, reason=f"there is no file {Path(place or text).absolute()}"
+        )
     return Path(place).resolve(), function
 
 

@@ -1,15 +1,15 @@
 """The search for few numbers whose change repairs a script.
 
-Runs of the script are few: one as it is written, a few for derivatives (`prediction`), and then one for each plan. A plan
-is a beam of changes, each of one number by as much as a predicted violation needs, rounded as a person would write it.
-The plan of least cost is run, its violations correct the rules of the prediction, and the next plan follows.
+Runs of the script are few: one as it is written, a few for derivatives (`prediction`), and then one for each plan. A
+plan is a beam of changes, each of one number by as much as a predicted violation needs, rounded as a person would write
+it. The plan of least cost is run, its violations correct the rules of the prediction, and the next plan follows.
 
 The cost of a run, or of a predicted one, is
 
     60 * violated / violated at first + 4 * violations + numbers changed + 200 * moved + 0.1 * sum(z^2)
 
-where `moved` is how far the parts moved, weighted by volume, as a share of the scene, and z is the change of a number in
-widths of its prior.
+where `moved` is how far the parts moved, weighted by volume, as a share of the scene, and z is the change of a number
+in widths of its prior.
 """
 
 from __future__ import annotations
@@ -30,6 +30,8 @@ from niwaki.repairing.writing import rounded
 #: The cost of all that is violated at first, of each violation, of each number, of a move of all by the scene's size,
 #: and of a number changed by its width.
 ALL, EACH, NUMBER, FAR, WIDE = 60.0, 4.0, 1.0, 200.0, 0.1
+#: Every so many runs a plan begins at the script as it is written.
+BASE = 4
 #: Plans kept side by side; the most numbers that a plan changes; violations that a plan attends to at once.
 BEAM, DEPTH, ATTENDED = 3, 12, 3
 #: The most numbers that are tried against one violation.
@@ -40,8 +42,8 @@ PATIENCE, POLISH = 36, 4
 GAIN = 0.3
 #: The share of an unexplained violation that a move of its part is hoped to end; after each failure the half of it.
 HOPE = 0.7
-#: A prediction is wrong if a part is elsewhere by this share of its move; a number is then trusted for this share of its
-#: change.
+#: A prediction is wrong if a part is elsewhere by this share of its move; a number is then trusted for this share of
+#: its change.
 WRONG, NEARER = 0.25, 0.4
 #: Changes that are tried without a promise, in widths; how many in a row of numbers, and of words.
 LADDER, NUMBERS, WORDS = (-2.0, -1.0, -0.5, -0.25, 0.25, 0.5, 1.0, 2.0), 16, 16
@@ -154,7 +156,7 @@ class Repairing:
         self.volumes = np.prod(np.maximum(base.boxes[:, 1] - base.boxes[:, 0], 1e-9), axis=-1)
         self.first = max(base.violated, 1e-12)
         self.hopes: dict[tuple[str, tuple[str, ...]], float] = {}
-        #: Where the parts of each violation were, and how far it was violated, in the runs in which they were elsewhere.
+        #: Where the parts of each violation were, and how far it was violated, in runs in which they were elsewhere.
         self.seen: dict[tuple[str, tuple[str, ...]], list[tuple[Array, float]]] = {}
         self.base = self.priced(base)
         self.trials = [self.base]
@@ -162,6 +164,7 @@ class Repairing:
         #: How far the derivatives of a number are trusted, where that is known.
         self.reach: dict[str, float] = {}
         self._tried = 0
+        self._idle: tuple[object, ...] = ()
         self.trends: dict[tuple[str, tuple[str, ...]], tuple[Array, float, Array]] = {}
         rules.learn(base.boxes, base.violations)
 
@@ -198,9 +201,9 @@ class Repairing:
             values = self.proposal(others=True)
             if values is None:
                 break
-            before = self.answers
+            known = self.answers
             report(self.tell(self.evaluate([values])[0]))
-            failures = 0 if self.answers > before else failures + 1
+            failures = 0 if self.answers > known else failures + 1
 
     @property
     def answers(self) -> int:
@@ -318,7 +321,9 @@ class Repairing:
         assert self.base.boxes is not None
         table = np.zeros((len(rows), self.base.boxes.size))
         runs = self.evaluate(
-            [{row.key: row.value + step} for row, step in zip(rows, unit, strict=True)][: max(self.left - 1, 0)]
+            [{row.key: row.value + step} for row, step in zip(rows, unit, strict=True)][
+                : max(self.left - 1, 0)
+            ]
         )
         for number, run in enumerate(runs):
             # A run whose change is large is an outcome, too.
@@ -341,7 +346,10 @@ class Repairing:
                 break
             runs = self.evaluate(
                 [
-                    {row.key: row.value + float(step) for row, step in zip(rows, steps[number] * unit, strict=True)}
+                    {
+                        row.key: row.value + float(step)
+                        for row, step in zip(rows, steps[number] * unit, strict=True)
+                    }
                     for number in wanted
                 ]
             )
@@ -350,7 +358,9 @@ class Repairing:
                 used.append(number)
                 if run.boxes is not None:
                     moved.append(_middles(run.boxes - self.base.boxes).ravel())
-            good = [number for number, run in zip(used, self.trials[1:], strict=True) if run.boxes is not None]
+            good = [
+                number for number, run in zip(used, self.trials[1:], strict=True) if run.boxes is not None
+            ]
             if len(good) < 3:
                 return self._one_by_one(rows, unit)
             table, explained = derivatives(steps[good] * unit, np.array(moved))
@@ -377,22 +387,36 @@ class Repairing:
             Whether to look for repairs by sets of literals that do not repair the script yet.
         """
         best, known = self.best, self._repairing()
-        starts = [self.base]
-        for trial in sorted(self.trials, key=lambda trial: trial.cost)[:2]:
-            if trial is not self.base and trial.boxes is not None and math.isfinite(trial.cost):
-                starts.append(trial)
+        state = self._state()
+        if not others and state == self._idle:
+            return None
+        # Plans from the first run change fewest numbers; those from the best are more likely to be right.
+        starts = [self.base] if len(self.trials) % BASE == 0 or best is self.base else []
+        starts += [best] if best is not self.base else []
         limit = self.base.cost if others else best.cost - (GAIN if not best.violations else 1e-6)
         plans: list[_Node] = []
-        for start in starts[:1] if others else starts:
+        for start in [self.base] if others else starts:
             plans += self.plan(start)
         for plan in sorted(plans, key=lambda plan: plan.cost):
             if plan.cost >= limit:
-                return None
+                break
             if others and (frozenset(plan.values) in known or plan.is_violated):
                 continue
             if not self._is_like_earlier(plan.values):
                 return plan.values
+        self._idle = state
         return None
+
+    def _state(self) -> tuple[object, ...]:
+        """Return all that plans depend on."""
+        rules = self.rules
+        return (
+            self.best.number,
+            *(rules.allowed.tobytes(), rules.room.tobytes(), rules.scale),
+            *(tuple(sorted((key, wide.tobytes()) for key, wide in rules.zones.items())),),
+            *(tuple(self.reach.items()), tuple(self.hopes.items())),
+            tuple(len(rows) for rows in self.seen.values()),
+        )
 
     def _is_like_earlier(self, values: Mapping[str, float]) -> bool:
         """Tell whether a run with about the same numbers is known."""
@@ -426,21 +450,31 @@ class Repairing:
                 here = best.values.get(key, literal.value)
                 steps = [self.widths[key] * share for share in LADDER]
                 steps += list(self._steps(node, item, slope, self.widths[key]))
-                values = sorted({value for step in steps for value in rounded(here, here + step, literal.value)[:1]})
+                values = sorted(
+                    {value for step in steps for value in rounded(here, here + step, literal.value)[:1]}
+                )
                 for value, cost in zip(values, self._costs(node, key, np.array(values), None), strict=True):
-                    options.append((float(cost) - ALL * row.amount / self.first, self._with(best, key, value)))
+                    options.append(
+                        (float(cost) - ALL * row.amount / self.first, self._with(best, key, value))
+                    )
         options.sort(key=lambda option: option[0])
-        tried = self._tried
-        if tried < NUMBERS:
-            for _, values in options:
-                if not self._is_like_earlier(values):
+        if self._tried < NUMBERS:
+            for _, numbers in options:
+                if not self._is_like_earlier(numbers):
                     self._tried += 1
-                    return values
-        about = {word.lower() for row in best.violations for part in row.parts for word in re.findall(r"[A-Za-z]{3,}", part)}
+                    return numbers
+        about = {
+            word.lower()
+            for row in best.violations
+            for part in row.parts
+            for word in re.findall(r"[A-Za-z]{3,}", part)
+        }
         others: list[tuple[float, dict[str, float]]] = []
         for key, literal in self.rows.items():
             here = best.values.get(key, literal.value)
-            named = any(word in name.lower() or name.lower() in about for word in about for name in literal.names)
+            named = any(
+                word in name.lower() or name.lower() in about for word in about for name in literal.names
+            )
             far = min((abs(literal.line - line) for line in lines), default=0)
             if literal.kind == "word":
                 others += [
@@ -451,9 +485,9 @@ class Repairing:
             elif literal.kind == "count":
                 others += [(500 + far, self._with(best, key, here + step)) for step in (-1, 1)]
         others.sort(key=lambda option: option[0])
-        for _, values in others[:WORDS]:
-            if not self._is_like_earlier(values):
-                return values
+        for _, changed in others[:WORDS]:
+            if not self._is_like_earlier(changed):
+                return changed
         return None
 
     def _with(self, trial: Trial, key: str, value: float) -> dict[str, float]:
@@ -505,7 +539,9 @@ class Repairing:
         known = {tuple(sorted(node.values.items()))}
         lowest, level = node.cost, 0
         for depth in range(DEPTH):
-            children: list[tuple[float, _Node, str, float, tuple[tuple[str, tuple[str, ...]], float] | None]] = []
+            children: list[
+                tuple[float, _Node, str, float, tuple[tuple[str, tuple[str, ...]], float] | None]
+            ] = []
             for parent in beam:
                 children += self._children(parent, ATTENDED if depth == 0 else 0)
             children.sort(key=lambda child: child[0])
@@ -541,7 +577,9 @@ class Repairing:
         items += [_Item(node.alone[n], "alone", (int(n),)) for n in np.flatnonzero(node.alone > 0)]
         items.sort(key=lambda item: -item.cost)
         rest = [
-            _Item(amount, "rest", tuple(self.rules.index[p] for p in key[1] if p in self.rules.index), None, key)
+            _Item(
+                amount, "rest", tuple(self.rules.index[p] for p in key[1] if p in self.rules.index), None, key
+            )
             for key, amount in node.rest.items()
             if amount > 0
         ]
@@ -575,7 +613,9 @@ class Repairing:
             if key not in self.slopes:
                 continue
             reach = self.reach.get(key, math.inf)
-            options = np.array(sorted(value for value in values if abs(value - self.rows[key].value) <= reach))
+            options = np.array(
+                sorted(value for value in values if abs(value - self.rows[key].value) <= reach)
+            )
             if not len(options):
                 continue
             costs = self._costs(node, key, options, eased)
@@ -684,19 +724,27 @@ class Repairing:
         among = rows[:, :, touched]
         old = node.pairs[touched]
         total = 0.5 * node.pairs.sum()
-        total = total - old.sum() + 0.5 * old[:, touched].sum() + rows.sum(axis=(1, 2)) - 0.5 * among.sum(axis=(1, 2))
+        total = (
+            total
+            - old.sum()
+            + 0.5 * old[:, touched].sum()
+            + rows.sum(axis=(1, 2))
+            - 0.5 * among.sum(axis=(1, 2))
+        )
         number = 0.5 * (node.pairs > 0).sum() - (old > 0).sum() + 0.5 * (old[:, touched] > 0).sum()
         number = number + (rows > 0).sum(axis=(1, 2)) - 0.5 * (among > 0).sum(axis=(1, 2))
         alone, rooms = rules.alone(boxes), rules.rooms(boxes)
         total = np.maximum(total, 0.0) + alone.sum(axis=1) + rooms.sum(axis=(1, 2))
         number = number + (alone > 0).sum(axis=1) + (rooms > 0).sum(axis=(1, 2))
-        for name, amount in self._rest(node, boxes, eased).items():
+        for amount in self._rest(node, boxes, eased).values():
             total, number = total + amount, number + (amount > 0)
         # Differences of sums round.
         total = np.where(total < 1e-9 * self.first, 0.0, total)
         others = {name: value for name, value in node.values.items() if name != key}
         changed = len(others) + (values != self.rows[key].value)
-        wide = sum(((value - self.rows[name].value) / self.widths[name]) ** 2 for name, value in others.items())
+        wide = sum(
+            ((value - self.rows[name].value) / self.widths[name]) ** 2 for name, value in others.items()
+        )
         wide = wide + ((values - self.rows[key].value) / self.widths[key]) ** 2
         return np.asarray(
             ALL * total / self.first + EACH * number + NUMBER * changed + FAR * self._far(boxes) + WIDE * wide
@@ -719,7 +767,9 @@ class Repairing:
                 # Where amounts are whole, the last of them may be 0.
                 out[key] = np.where(there > 0.01 * trend[1], there, 0.0)
             else:
-                out[key] = np.full(len(boxes), amount * (1.0 - eased[1] if eased and eased[0] == key else 1.0))
+                out[key] = np.full(
+                    len(boxes), amount * (1.0 - eased[1] if eased and eased[0] == key else 1.0)
+                )
         return out
 
     def _child(
