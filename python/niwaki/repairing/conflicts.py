@@ -13,10 +13,9 @@ SHOWN = 3
 
 def conflicts_of(search: Repairing) -> Iterator[Conflict]:
     """Return what is still violated in the best run, with what is violated in every run that keeps it."""
-    runs = [trial for trial in search.trials if trial.boxes is not None and not trial.failed]
     for row in sorted(search.best.violations, key=lambda row: -row.amount)[:SHOWN]:
         words = f"{row.requirement} ({', '.join(row.parts)})" if row.parts else row.requirement
-        keeping = [trial for trial in runs if row.key not in {other.key for other in trial.violations}]
+        keeping = [trial for trial in search.sound if row.key not in trial.broken]
         if keeping:
             others = _in_all(keeping)
             if not others:

@@ -25,7 +25,7 @@ from niwaki.repairing.prediction import Array, Rules
 from niwaki.repairing.requirements import Keep, keep_of
 from niwaki.repairing.result import Patch, Repair, edits_of
 from niwaki.repairing.scripts import ScriptGenerator, Violation, split
-from niwaki.repairing.search import Repairing, Trial
+from niwaki.repairing.search import Key, Repairing, Trial
 
 #: A function that judges parts: it gets their boxes by name, and returns what is violated.
 Judge = Callable[[Mapping[str, Array]], Sequence[Violation]]
@@ -138,6 +138,7 @@ def repair(
             if isinstance(judge, Keep) and judge.within is not None:
                 rules.given = np.array(judge.within)
             named = set(free)
+            known = judge if isinstance(judge, Keep) else None
             search = Repairing(
                 loose,
                 runs,
@@ -146,6 +147,7 @@ def repair(
                 evaluations,
                 exact=not is_scad,
                 resizes=lambda row: bool({*row.names, row.line} & named),
+                judge=None if known is None else runs.foresight(known),
             )
             try:
                 search.run(progress or (lambda trial: None), patches)
@@ -224,6 +226,10 @@ class _Runs:
             self.failures[failed] = self.failures.get(failed, 0) + 1
         self.parts.append(reply.parts)
         return Trial(number, dict(values), boxes, violations, failed)
+
+    def foresight(self, keep: Keep) -> Callable[[Array], Mapping[Key, float]]:
+        """Return a function that judges predicted boxes."""
+        return lambda boxes: {row.key: row.amount for row in keep.of_boxes(self.names, boxes, self.up)}
 
     def _judged(self, reply: Reply, names: tuple[str, ...], boxes: Array) -> tuple[Violation, ...]:
         if isinstance(self.judge, Keep):

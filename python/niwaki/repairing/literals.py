@@ -230,7 +230,13 @@ def _of_python(text: str, words: list[tuple[str, ...]]) -> Iterator[Literal]:
             about = tuple(name for target in targets for name in _names_of(target))
             for target in targets:
                 yield from walk(target, names, called, state, -1)
-            if node.value is not None:
+            pairs = _paired(targets, node.value)
+            for names_of_one, single in pairs:
+                counted = (
+                    "count" if set(names_of_one) & counts and isinstance(single, ast.Constant) else state
+                )
+                yield from walk(single, (*names_of_one, *names), "", counted, -1)
+            if node.value is not None and not pairs:
                 counted = "count" if set(about) & counts and isinstance(node.value, ast.Constant) else state
                 yield from walk(node.value, (*about, *names), "", counted, -1)
         elif isinstance(node, ast.Subscript):
@@ -312,6 +318,15 @@ def _is_formula(value: object) -> bool:
 def _called(node: ast.Call) -> str:
     function = node.func
     return function.id if isinstance(function, ast.Name) else getattr(function, "attr", "")
+
+
+def _paired(targets: Sequence[ast.AST], value: ast.AST | None) -> list[tuple[tuple[str, ...], ast.expr]]:
+    """Return the names of each entry of `a, b = 1, 2`; nothing for another assignment."""
+    if len(targets) != 1 or not isinstance(targets[0], ast.Tuple) or not isinstance(value, ast.Tuple):
+        return []
+    if len(targets[0].elts) != len(value.elts):
+        return []
+    return [(tuple(_names_of(name)), entry) for name, entry in zip(targets[0].elts, value.elts, strict=True)]
 
 
 def _names_of(node: ast.AST) -> Iterator[str]:

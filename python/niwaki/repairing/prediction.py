@@ -29,9 +29,11 @@ TINY, RUNS, MOST_RUNS = 1e-6, 6, 12
 #: A coordinate is explained by numbers that leave this share of its changes.
 EXPLAINED = 1e-4
 #: Sets of numbers that are extended side by side.
-KEPT = 24
+KEPT = 40
 #: Two parts touch, or overlap, within this share of the scene's size.
 TOUCHING = 1e-3
+#: Two parts that overlap by less than this share of the scene's size only touch.
+CLOSE = 1e-8
 #: The room that a part asks for grows by this share of its size with each violation that it does not explain.
 ROOM = 0.15
 
@@ -112,7 +114,7 @@ def _explanation(steps: Array, gram: Array, target: Array) -> tuple[list[int], A
                 extended[tuple(sorted((*support, int(k))))] = float(rest @ rest - gain[k])
         nearest = sorted(extended, key=lambda support: extended[support])
         best = list(nearest[0])
-        weights = np.linalg.lstsq(steps[:, best], target, rcond=None)[0]
+        weights = np.asarray(np.linalg.lstsq(steps[:, best], target, rcond=None)[0], dtype=np.float64)
         if extended[nearest[0]] < EXPLAINED**2:
             return best, weights, True
         supports = set(nearest[:KEPT])
@@ -214,7 +216,7 @@ class Rules:
         """Return what overlaps of parts cost: (..., rows, parts)."""
         if not self.collide:
             return np.zeros((*first.shape[:-2], len(self.names)))
-        cost = overlaps(first[..., :, None, :, :], second[..., None, :, :, :])
+        cost = overlaps(first[..., :, None, :, :], second[..., None, :, :, :], CLOSE * self.size)
         cost[..., self.allowed[rows]] = 0.0
         return np.asarray(cost * self.scale)
 
@@ -246,7 +248,7 @@ class Rules:
         out = []
         for (_, owner), wide in self.zones.items():
             zone = boxes[..., owner, :, :] + np.stack([-wide, wide])
-            cost = overlaps(zone[..., None, :, :], boxes)
+            cost = overlaps(zone[..., None, :, :], boxes, CLOSE * self.size)
             cost[..., owner] = 0.0
             cost[..., self.allowed[owner]] = 0.0
             out.append(cost)
@@ -255,10 +257,18 @@ class Rules:
         return np.stack(out, axis=-2) * self.scale
 
 
-def overlaps(first: Array, second: Array) -> Array:
-    """Return the side of a cube as large as what two boxes share; boxes are (..., 2, 3)."""
+def overlaps(first: Array, second: Array, least: float = 0.0) -> Array:
+    """Return the side of a cube as large as what two boxes share; boxes are (..., 2, 3).
+
+    Parameters
+    ----------
+    first, second
+        The boxes.
+    least
+        Boxes that share less along an axis only touch.
+    """
     sides = np.minimum(first[..., 1, :], second[..., 1, :]) - np.maximum(first[..., 0, :], second[..., 0, :])
-    return np.asarray(np.cbrt(np.prod(np.maximum(sides, 0.0), axis=-1)))
+    return np.asarray(np.cbrt(np.prod(np.where(sides > least, sides, 0.0), axis=-1)))
 
 
 def depths(first: Array, second: Array) -> Array:

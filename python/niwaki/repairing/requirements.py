@@ -70,20 +70,27 @@ class Keep(Struct, frozen=True, forbid_unknown_fields=True):
         """
         names = [name for name, _, _ in parts]
         size = float((boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)).max())
+        collisions = _collisions(parts, boxes, size) if self.collisions is False else []
+        return collisions + self.of_boxes(names, boxes, up)
+
+    def of_boxes(self, names: Sequence[str], boxes: Array, up: int) -> list[Violation]:
+        """Return what boxes violate: all but collisions, which need the meshes."""
+        size = float((boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)).max())
         out: list[Violation] = []
-        if self.collisions is False:
-            out += _collisions(parts, boxes, size)
         if self.within is not None:
             low, high = np.array(self.within)
             off = np.maximum(low - boxes[:, 0], boxes[:, 1] - high).max(axis=1)
             out += [
-                Violation("within", (names[n],), float(off[n])) for n in np.flatnonzero(off > 1e-9 * size)
+                Violation("within", (name,), float(far))
+                for name, far in zip(names, off, strict=True)
+                if far > 1e-9 * size
             ]
         if self.supported:
             off = _unsupported(boxes, up)
             out += [
-                Violation("supported", (names[n],), float(off[n]))
-                for n in np.flatnonzero(off > TOUCHING * size)
+                Violation("supported", (name,), float(far))
+                for name, far in zip(names, off, strict=True)
+                if far > TOUCHING * size
             ]
         if self.height is not None:
             top = int(np.argmax(boxes[:, 1, up]))

@@ -6,10 +6,11 @@ it. The plan of least cost is run, its violations correct the rules of the predi
 
 The cost of a run, or of a predicted one, is
 
-    60 * violated / violated at first + 4 * violations + numbers changed + 200 * moved + 0.1 * sum(z^2)
+    60 * violated / violated at first + 4 * violations
+        + numbers changed + 0.3 * decimals added + 200 * moved + 0.1 * sum(z^2)
 
 where `moved` is how far the parts moved, weighted by volume, as a share of the scene, and z is the change of a number
-in widths of its prior.
+in widths of its prior. The second line is bent so that it stays below 60: a repair is worth any change.
 """
 
 from __future__ import annotations
@@ -18,6 +19,8 @@ import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain, zip_longest
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,11 +28,13 @@ from numpy.typing import NDArray
 from niwaki.repairing.literals import Literal
 from niwaki.repairing.prediction import MOST_RUNS, RUNS, TINY, Array, Rules, changes, derivatives
 from niwaki.repairing.scripts import Violation
-from niwaki.repairing.writing import rounded
+from niwaki.repairing.writing import coarse, further, rounded
 
 #: The cost of all that is violated at first, of each violation, of each number, of a move of all by the scene's size,
 #: and of a number changed by its width.
 ALL, EACH, NUMBER, FAR, WIDE = 60.0, 4.0, 1.0, 200.0, 0.1
+#: The cost of each decimal more than the literal has as it is written.
+DIGIT = 0.3
 #: Every so many runs a plan begins at the script as it is written.
 BASE = 4
 #: Plans kept side by side; the most numbers that a plan changes; violations that a plan attends to at once.
@@ -45,8 +50,10 @@ HOPE = 0.7
 #: A prediction is wrong if a part is elsewhere by this share of its move; a number is then trusted for this share of
 #: its change.
 WRONG, NEARER = 0.25, 0.4
-#: Changes that are tried without a promise, in widths; how many in a row of numbers, and of words.
+#: Changes that are tried without a promise, in widths; the most of them of numbers, and of words.
 LADDER, NUMBERS, WORDS = (-2.0, -1.0, -0.5, -0.25, 0.25, 0.5, 1.0, 2.0), 16, 16
+#: Violations whose conflicts are looked for.
+SHOWN = 3
 #: Numbers are as good as those of an earlier run within this share of their changes.
 SAME = 0.06
 
@@ -79,11 +86,20 @@ class Trial:
     cost: float = math.inf
 
     @property
+    def broken(self) -> set[Key]:
+        """The keys of the violations."""
+        return {row.key for row in self.violations}
+
+    @property
     def violated(self) -> float:
         """The sum of what is violated."""
         return sum(row.amount for row in self.violations) if not self.failed else math.inf
 
 
+#: The requirement and the parts of a violation.
+Key = tuple[str, tuple[str, ...]]
+#: A violation that a change is hoped to end, with the share of it.
+Eased = tuple[Key, float] | None
 #: Runs a script with numbers: the outcomes in order.
 Evaluate = Callable[[Sequence[Mapping[str, float]]], list[Trial]]
 
@@ -97,7 +113,7 @@ class _Node:
     pairs: Array
     alone: Array
     rooms: Array
-    rest: dict[tuple[str, tuple[str, ...]], float]
+    rest: dict[Key, float]
     cost: float = math.inf
 
     @property
@@ -114,7 +130,7 @@ class _Item:
     kind: str
     parts: tuple[int, ...]
     wide: Array | None = None
-    key: tuple[str, tuple[str, ...]] | None = None
+    key: Key | None = None
 
 
 class Repairing:
@@ -133,7 +149,9 @@ class Repairing:
     exact
         Whether the script's coordinates have all their digits.
     resizes
-        Whether numbers that resize parts may change, by key.
+        Whether a number that resizes parts may change.
+    judge
+        Judges predicted boxes: what they violate, as far as boxes tell.
     """
 
     def __init__(
@@ -145,27 +163,27 @@ class Repairing:
         budget: int,
         exact: bool = True,
         resizes: Callable[[Literal], bool] = lambda row: False,
+        judge: Callable[[Array], Mapping[Key, float]] | None = None,
     ) -> None:
         assert base.boxes is not None
         self.rows = {row.key: row for row in rows}
         self.evaluate, self.base, self.rules, self.budget = evaluate, base, rules, budget
-        self.exact, self.resizes = exact, resizes
+        self.exact, self.resizes, self.judge = exact, resizes, judge
         self.widths = {row.key: row.width(rules.size) for row in rows}
         self.slopes: dict[str, Array] = {}
         self.sizes: list[Literal] = []
         self.volumes = np.prod(np.maximum(base.boxes[:, 1] - base.boxes[:, 0], 1e-9), axis=-1)
         self.first = max(base.violated, 1e-12)
-        self.hopes: dict[tuple[str, tuple[str, ...]], float] = {}
+        self.hopes: dict[Key, float] = {}
         #: Where the parts of each violation were, and how far it was violated, in runs in which they were elsewhere.
-        self.seen: dict[tuple[str, tuple[str, ...]], list[tuple[Array, float]]] = {}
+        self.seen: dict[Key, list[tuple[Array, float]]] = {}
         self.base = self.priced(base)
         self.trials = [self.base]
         self._note(self.base)
         #: How far the derivatives of a number are trusted, where that is known.
         self.reach: dict[str, float] = {}
-        self._tried = 0
         self._idle: tuple[object, ...] = ()
-        self.trends: dict[tuple[str, tuple[str, ...]], tuple[Array, float, Array]] = {}
+        self.trends: dict[Key, tuple[Array, float, Array]] = {}
         rules.learn(base.boxes, base.violations)
 
     @property
@@ -192,10 +210,12 @@ class Repairing:
             trial = self.tell(self.evaluate([values])[0])
             report(trial)
             if trial.cost < before.cost - 1e-9:
-                stalled = self._tried = 0
+                stalled = 0
             else:
                 stalled += 1
             polished += not before.violations
+        if self.best.violations:
+            self.contrast()
         failures = 0
         while self.left > 0 and failures < PATIENCE and 0 < self.answers < patches:
             values = self.proposal(others=True)
@@ -268,7 +288,7 @@ class Repairing:
             elif step > 0.5 * self.reach.get(key, math.inf):
                 self.reach[key] = 2.0 * step
 
-    def _place(self, boxes: Array, key: tuple[str, tuple[str, ...]]) -> Array | None:
+    def _place(self, boxes: Array, key: Key) -> Array | None:
         """Return the middle of a violation's part, or how far that of the first is from that of the second."""
         places = [self.rules.index[part] for part in key[1] if part in self.rules.index]
         if not 1 <= len(places) <= 2:
@@ -276,7 +296,7 @@ class Repairing:
         middles = boxes[..., places, :, :].mean(axis=-2)
         return np.asarray(middles[..., 0, :] - middles[..., 1, :] if len(places) == 2 else middles[..., 0, :])
 
-    def _trend(self, key: tuple[str, tuple[str, ...]]) -> tuple[Array, float, Array] | None:
+    def _trend(self, key: Key) -> tuple[Array, float, Array] | None:
         """Return a place, its amount, and the derivative of the amount, if runs have shown it."""
         rows = [row for row in self.seen.get(key, []) if row[1] > 0.0]
         if len(rows) < 2:
@@ -287,7 +307,7 @@ class Repairing:
         slope = np.linalg.lstsq(steps, np.array([other - amount for _, other in others]), rcond=1e-3)[0]
         return (place, amount, slope) if np.abs(slope).max() > 0.0 else None
 
-    def _moves(self, name: str, key: tuple[str, tuple[str, ...]]) -> bool:
+    def _moves(self, name: str, key: Key) -> bool:
         slope = self.slopes.get(name)
         places = [self.rules.index[part] for part in key[1] if part in self.rules.index]
         return slope is not None and bool(np.any(slope[places]))
@@ -315,13 +335,17 @@ class Repairing:
                 self.sizes.append(row)
                 continue
             self.slopes[key] = slope
+        fixed = {row.key for row in self.sizes}
+        self.trials = [
+            replace(trial, cost=math.inf) if fixed & trial.values.keys() else trial for trial in self.trials
+        ]
 
     def _one_by_one(self, rows: Sequence[Literal], unit: Array) -> Array:
         """Change the numbers one by one."""
         assert self.base.boxes is not None
         table = np.zeros((len(rows), self.base.boxes.size))
         runs = self.evaluate(
-            [{row.key: row.value + step} for row, step in zip(rows, unit, strict=True)][
+            [{row.key: row.value + float(step)} for row, step in zip(rows, unit, strict=True)][
                 : max(self.left - 1, 0)
             ]
         )
@@ -457,12 +481,6 @@ class Repairing:
                     options.append(
                         (float(cost) - ALL * row.amount / self.first, self._with(best, key, value))
                     )
-        options.sort(key=lambda option: option[0])
-        if self._tried < NUMBERS:
-            for _, numbers in options:
-                if not self._is_like_earlier(numbers):
-                    self._tried += 1
-                    return numbers
         about = {
             word.lower()
             for row in best.violations
@@ -484,15 +502,50 @@ class Repairing:
                 ]
             elif literal.kind == "count":
                 others += [(500 + far, self._with(best, key, here + step)) for step in (-1, 1)]
-        others.sort(key=lambda option: option[0])
-        for _, changed in others[:WORDS]:
-            if not self._is_like_earlier(changed):
-                return changed
+        numbers = [entry for _, entry in sorted(options, key=lambda option: option[0])[:NUMBERS]]
+        words = [entry for _, entry in sorted(others, key=lambda option: option[0])[:WORDS]]
+        # A word for each number.
+        for option in chain.from_iterable(zip_longest(words, numbers)):
+            if option is not None and not self._is_like_earlier(option):
+                return option
         return None
+
+    def contrast(self) -> None:
+        """Run the script so that each violation that is left ends, whatever else is violated then."""
+        best = self.best
+        for row in best.violations[:SHOWN]:
+            places = [self.rules.index[name] for name in row.parts if name in self.rules.index]
+            if self.left < 1 or not places or any(row.key not in trial.broken for trial in self.sound[1:]):
+                continue
+            kind = "alone" if len(places) == 1 else "pair"
+            item = _Item(row.amount, kind, tuple(places))
+            node = self._node(best)
+            for _ in range(SHOWN):
+                children = [
+                    self._child(node, key, node.values.get(key, self.rows[key].value) + step, None)
+                    for key, slope in self.slopes.items()
+                    if slope[places].any()
+                    for step in self._steps(node, item, slope, self.widths[key])
+                ]
+                if not children or self._own(node, kind, places) <= 0.0:
+                    break
+                node = min(children, key=lambda child: (self._own(child, kind, places), child.cost))
+            if self._own(node, kind, places) <= 0.0:
+                self.tell(self.evaluate([node.values])[0])
+
+    @staticmethod
+    def _own(node: _Node, kind: str, places: Sequence[int]) -> float:
+        """Return what one violation costs in a predicted run."""
+        return float(node.alone[places[0]] if kind == "alone" else node.pairs[places[0], places[-1]])
+
+    @property
+    def sound(self) -> list[Trial]:
+        """The runs that did not fail, and that change nothing that has to stay; not those for derivatives."""
+        return [trial for trial in self.trials if trial.boxes is not None and math.isfinite(trial.cost)]
 
     def _with(self, trial: Trial, key: str, value: float) -> dict[str, float]:
         """Return the numbers of a run with another value of one literal."""
-        values = {**trial.values, key: value}
+        values = {**trial.values, key: float(value)}
         if value == self.rows[key].value:
             del values[key]
         return values
@@ -539,9 +592,7 @@ class Repairing:
         known = {tuple(sorted(node.values.items()))}
         lowest, level = node.cost, 0
         for depth in range(DEPTH):
-            children: list[
-                tuple[float, _Node, str, float, tuple[tuple[str, tuple[str, ...]], float] | None]
-            ] = []
+            children: list[tuple[float, _Node, str, float, Eased]] = []
             for parent in beam:
                 children += self._children(parent, ATTENDED if depth == 0 else 0)
             children.sort(key=lambda child: child[0])
@@ -587,11 +638,9 @@ class Repairing:
         known = [item for item in rest if item.key in self.trends]
         return items[:ATTENDED] + known[:2] + [item for item in rest if item.key not in self.trends][:hopes]
 
-    def _children(
-        self, node: _Node, hopes: int
-    ) -> list[tuple[float, _Node, str, float, tuple[tuple[str, tuple[str, ...]], float] | None]]:
-        out: list[tuple[float, _Node, str, float, tuple[tuple[str, tuple[str, ...]], float] | None]] = []
-        wanted: dict[tuple[str, tuple[tuple[str, tuple[str, ...]], float] | None], set[float]] = {}
+    def _children(self, node: _Node, hopes: int) -> list[tuple[float, _Node, str, float, Eased]]:
+        out: list[tuple[float, _Node, str, float, Eased]] = []
+        wanted: dict[tuple[str, Eased], set[float]] = {}
         for item in self._items(node, hopes):
             movers = [
                 (int((np.abs(slope).max(axis=(1, 2)) > 0).sum()), key)
@@ -603,8 +652,17 @@ class Repairing:
                 eased = None
                 if item.key is not None:
                     eased = (item.key, self.hopes[item.key])
-                for step in self._steps(node, item, self.slopes[key], self.widths[key]):
-                    wanted.setdefault((key, eased), set()).update(rounded(here, here + step, row.value))
+                steps = [
+                    (step, eased) for step in self._steps(node, item, self.slopes[key], self.widths[key])
+                ]
+                if item.key is not None and item.key not in self.trends:
+                    # Without a reason, there is less hope.
+                    less = (item.key, 0.5 * self.hopes[item.key])
+                    steps += [(-self.widths[key], less), (self.widths[key], less)]
+                for step, eased in steps:
+                    value = here + step
+                    spelled = {*rounded(here, value, row.value), coarse(row, here, value)} - {here}
+                    wanted.setdefault((key, eased), set()).update(spelled)
                 if here != row.value:
                     wanted.setdefault((key, None), set()).add(row.value)
         for key in node.values:
@@ -631,14 +689,12 @@ class Repairing:
             a, b = item.parts
             wide = np.zeros(3) if item.wide is None else item.wide
             low, high = node.boxes[a, 0] - wide, node.boxes[a, 1] + wide
-            # Room between them for the digits that are cut.
-            space = 1e-9 * self.rules.size
             for axis in range(3):
                 above, below = slope[a, 0, axis] - slope[b, 1, axis], slope[b, 0, axis] - slope[a, 1, axis]
                 if above:
-                    steps.append((node.boxes[b, 1, axis] - low[axis] + space) / above)
+                    steps.append((node.boxes[b, 1, axis] - low[axis]) / above)
                 if below:
-                    steps.append((high[axis] - node.boxes[b, 0, axis] + space) / below)
+                    steps.append((high[axis] - node.boxes[b, 0, axis]) / below)
         elif item.kind == "alone":
             (a,) = item.parts
             for axis in range(3):
@@ -670,8 +726,6 @@ class Repairing:
                 for axis in range(3):
                     if slope[a, 0, axis]:
                         steps += [far / slope[a, 0, axis], -far / slope[a, 0, axis]]
-            if item.key not in self.trends:
-                steps += [-width, width]
         yield from (step for step in steps if 0.0 < abs(step) <= reach)
 
     def _standing(self, node: _Node, part: int, slope: Array) -> Iterator[float]:
@@ -713,7 +767,7 @@ class Repairing:
         node: _Node,
         key: str,
         values: Array,
-        eased: tuple[tuple[str, tuple[str, ...]], float] | None,
+        eased: Eased,
     ) -> Array:
         """Return the predicted costs of values of one number."""
         rules, slope = self.rules, self.slopes[key]
@@ -742,23 +796,28 @@ class Repairing:
         total = np.where(total < 1e-9 * self.first, 0.0, total)
         others = {name: value for name, value in node.values.items() if name != key}
         changed = len(others) + (values != self.rows[key].value)
-        wide = sum(
+        fixed = sum(
             ((value - self.rows[name].value) / self.widths[name]) ** 2 for name, value in others.items()
         )
-        wide = wide + ((values - self.rows[key].value) / self.widths[key]) ** 2
-        return np.asarray(
-            ALL * total / self.first + EACH * number + NUMBER * changed + FAR * self._far(boxes) + WIDE * wide
-        )
+        wide = fixed + ((values - self.rows[key].value) / self.widths[key]) ** 2
+        before = sum(further(self.rows[name], value) for name, value in others.items())
+        digits = before + np.array([further(self.rows[key], float(value)) for value in values])
+        change = NUMBER * changed + FAR * self._far(boxes) + WIDE * wide + DIGIT * digits
+        return np.asarray(ALL * total / self.first + EACH * number + _limited(change))
 
     def _rest(
         self,
         node: _Node,
         boxes: Array,
-        eased: tuple[tuple[str, tuple[str, ...]], float] | None,
-    ) -> dict[tuple[str, tuple[str, ...]], Array]:
+        eased: Eased,
+    ) -> dict[Key, Array]:
         """Return what is left of violations that no rule explains, by their trends, or by hope."""
-        out = {}
+        out: dict[Key, Array] = {}
+        judged = None if self.judge is None or not node.rest else [self.judge(entry) for entry in boxes]
         for key, amount in node.rest.items():
+            if judged is not None and key[0] != "collisions":
+                out[key] = np.array([row.get(key, 0.0) for row in judged])
+                continue
             trend = self.trends.get(key)
             if trend is not None:
                 place = self._place(boxes, key)
@@ -777,12 +836,12 @@ class Repairing:
         node: _Node,
         key: str,
         value: float,
-        eased: tuple[tuple[str, tuple[str, ...]], float] | None,
+        eased: Eased,
     ) -> _Node:
         rules, every = self.rules, np.arange(len(self.rules.names))
         here = node.values.get(key, self.rows[key].value)
         boxes = node.boxes + (value - here) * self.slopes[key]
-        values = {**node.values, key: value}
+        values = {**node.values, key: float(value)}
         if value == self.rows[key].value:
             del values[key]
         rest = {name: float(amount[0]) for name, amount in self._rest(node, boxes[None], eased).items()}
@@ -801,13 +860,20 @@ class Repairing:
     def change(self, values: Mapping[str, float], boxes: Array) -> float:
         """Return the cost of the change alone: numbers, moves, and widths."""
         wide = sum(((value - self.rows[key].value) / self.widths[key]) ** 2 for key, value in values.items())
-        return NUMBER * len(values) + FAR * float(self._far(boxes[None])[0]) + WIDE * wide
+        digits = sum(further(self.rows[key], value) for key, value in values.items())
+        far = float(self._far(boxes[None])[0])
+        return float(_limited(NUMBER * len(values) + FAR * far + WIDE * wide + DIGIT * digits))
 
     def _far(self, boxes: Array) -> NDArray[np.float64]:
         """Return how far the parts moved: see `prediction.moved`."""
         assert self.base.boxes is not None
         far = np.linalg.norm(boxes - self.base.boxes, axis=-1).max(axis=-1)
         return np.asarray(far @ self.volumes / max(float(self.volumes.sum()) * self.rules.size, 1e-300))
+
+
+def _limited(change: Any) -> Any:
+    """Return the cost of a change, below that of all that is violated at first: a repair is worth any change."""
+    return ALL * -np.expm1(-np.asarray(change) / ALL)
 
 
 def _middles(boxes: Array) -> Array:

@@ -59,6 +59,7 @@ def rounded(start: float, value: float, original: float | None = None) -> list[f
     original
         The value as written, if it is another.
     """
+    start, value = float(start), float(value)
     change = value - start
     if change == 0.0 or not math.isfinite(value):
         return []
@@ -76,6 +77,24 @@ def rounded(start: float, value: float, original: float | None = None) -> list[f
                 if len(out) == 2:
                     return out
     return out or [value]
+
+
+def further(row: Literal, value: float) -> int:
+    """Return how many more decimals a value has than its literal as it is written."""
+    return max(0, decimals(digits(row, value)) - max(decimals(row.text), 1 if abs(row.value) < 100 else 0))
+
+
+def decimals(text: str) -> int:
+    """Return the number of digits behind the point."""
+    return len(text.rpartition(".")[2].rstrip("0")) if "." in text else 0
+
+
+def coarse(row: Literal, start: float, value: float) -> float:
+    """Return a value with as many decimals as its literal, further from `start`."""
+    step = 10.0 ** -max(decimals(row.text), 1 if abs(row.value) < 100 and not row.is_whole else 0)
+    count = value / step
+    near = math.ceil(count - 1e-7) if value > start else math.floor(count + 1e-7)
+    return float(f"{near * step:.12g}")
 
 
 def changed(rows: Sequence[Literal], values: Mapping[str, float]) -> list[Literal]:
