@@ -6,7 +6,7 @@ it. The plan of least cost is run, its violations correct the rules of the predi
 
 The cost of a run, or of a predicted one, is
 
-    60 * violated / violated at first + 4 * violations
+    60 * violated / violated at first + 12 * violations
         + numbers changed + 0.3 * decimals added + 200 * moved + 0.1 * sum(z^2)
 
 where `moved` is how far the parts moved, weighted by volume, as a share of the scene, and z is the change of a number
@@ -32,7 +32,7 @@ from niwaki.repairing.writing import coarse, further, rounded
 
 #: The cost of all that is violated at first, of each violation, of each number, of a move of all by the scene's size,
 #: and of a number changed by its width.
-ALL, EACH, NUMBER, FAR, WIDE = 60.0, 4.0, 1.0, 200.0, 0.1
+ALL, EACH, NUMBER, FAR, WIDE = 60.0, 12.0, 1.0, 200.0, 0.1
 #: The cost of each decimal more than the literal has as it is written.
 DIGIT = 0.3
 #: Every so many runs a plan begins at the script as it is written.
@@ -42,7 +42,7 @@ BEAM, DEPTH, ATTENDED = 3, 12, 3
 #: The most numbers that are tried against one violation.
 TRIED = 12
 #: Runs without a gain after which the search ends; runs that look for a smaller change of a script that is repaired.
-PATIENCE, POLISH = 36, 4
+PATIENCE, POLISH = 48, 4
 #: A plan of a repaired script is run if it costs less by this.
 GAIN = 0.3
 #: The share of an unexplained violation that a move of its part is hoped to end; after each failure the half of it.
@@ -51,7 +51,7 @@ HOPE = 0.7
 #: its change.
 WRONG, NEARER = 0.25, 0.4
 #: Changes that are tried without a promise, in widths; the most of them of numbers, and of words.
-LADDER, NUMBERS, WORDS = (-2.0, -1.0, -0.5, -0.25, 0.25, 0.5, 1.0, 2.0), 16, 16
+LADDER, NUMBERS, WORDS = (-2.0, -1.0, -0.5, -0.25, 0.25, 0.5, 1.0, 2.0), 32, 24
 #: Violations whose conflicts are looked for.
 SHOWN = 3
 #: Numbers are as good as those of an earlier run within this share of their changes.
