@@ -101,7 +101,7 @@ def repairs() -> Image.Image:
     """Scripts of the bench before and, below, after their repair; parts that violate a requirement are red."""
     rows: list[list[Image.Image]] = [[], []]
     for name in ("bedroom", "dining", "flat", "shelf"):
-        place = repair.OWN / f"{name}.py"
+        place = repair.SCRIPTS / f"{name}.py"
         found = nw.repair(place, repair.keep_in(place.read_text()), workers=0)
         assert found.best is not None
         scenes = []

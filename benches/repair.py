@@ -32,7 +32,7 @@ import niwaki as nw
 import numpy as np
 from niwaki.repairing import Repair
 
-OWN = Path(__file__).parent / "repairs"
+SCRIPTS = Path(__file__).parent / "repairs"
 #: The results of the peer, which takes minutes.
 PEER = Path(__file__).parent / ".cache" / "scene-programs.json"
 LAYOUTS = "layouts/claude-3-5-sonnet-20241022/250105"
@@ -52,7 +52,7 @@ def keep_in(text: str) -> nw.Keep:
 
 def own_scripts() -> list[Path]:
     """List our scripts."""
-    return sorted(place for place in OWN.iterdir() if place.suffix in (".py", ".scad"))
+    return sorted(place for place in SCRIPTS.iterdir() if place.suffix in (".py", ".scad"))
 
 
 def own_table() -> None:
@@ -105,7 +105,7 @@ class Programs:
         code = code.replace("while True:", "for _ in range(18):")
         return self.scenes.Scene("scene", code, self.environment, 0, None, None, None)
 
-    def made(self, text: str) -> nw.Made:
+    def output(self, text: str) -> nw.Output:
         """Return the boxes and the losses of a program."""
         scene = self.scene(text)
         names = [f"{thing.name} {number}" for number, thing in enumerate(scene.objs)]
@@ -113,7 +113,7 @@ class Programs:
         for name, thing in zip(names, scene.objs, strict=True):
             low, high = thing.fmin(), thing.fmax()
             parts[name] = np.array([[low.x, low.y, low.z], [high.x, high.y, high.z]])
-        return nw.Made(
+        return nw.Output(
             parts,
             [
                 nw.Violation(row.rtype.name, tuple(names[number] for number in row.args), float(row.loss))
@@ -162,7 +162,7 @@ class Programs:
         """Repair a program."""
         start = time.process_time()
         repair = nw.repair(
-            place, run=self.made, fix=FIX, words=WORDS, workers=0, up="z", evaluations=EVALUATIONS
+            place, run=self.output, fix=FIX, words=WORDS, workers=0, up="z", evaluations=EVALUATIONS
         )
         seconds = time.process_time() - start
         text = place.read_text(encoding="utf-8")
@@ -191,17 +191,17 @@ def peers(programs: Programs, places: list[Path]) -> Iterator[dict[str, float]]:
         yield known[place.stem]
 
 
-def programs_table(root: Path, wanted: list[str]) -> None:
+def programs_table(root: Path, names: list[str]) -> None:
     """Repair the scene programs, and run the peer."""
     programs = Programs(root)
-    places = [place for place in programs.places() if not wanted or place.stem in wanted]
+    places = [place for place in programs.places() if not names or place.stem in names]
     both = []
     print(
         "\n| scene | violated | left | moved | evaluations | numbers |\n| --- | --- | --- | --- | --- | --- |"
     )
     for place, peer in zip(places, peers(programs, places), strict=True):
         repair, ours = programs.ours(place)
-        if wanted and repair.best:
+        if names and repair.best:
             print(repair.best.difference(), *repair.best.violations, sep="\n")
         both.append((ours, peer))
         cells = [
@@ -235,8 +235,8 @@ def programs_table(root: Path, wanted: list[str]) -> None:
 
 def main() -> None:
     """Print both tables."""
-    wanted = sys.argv[1:]
-    if not wanted:
+    names = sys.argv[1:]
+    if not names:
         own_table()
     folder = os.environ.get("NIWAKI_SCENE_PROGRAMS")
     if folder is None:
@@ -244,7 +244,7 @@ def main() -> None:
             "\nThe scene programs are left out: NIWAKI_SCENE_PROGRAMS names no copy of mxgmn/ImperativeScene."
         )
         return
-    programs_table(Path(folder), wanted)
+    programs_table(Path(folder), names)
 
 
 if __name__ == "__main__":

@@ -47,7 +47,7 @@ from .methods import smc as smc
 from .methods import vi as vi
 from .notebook import view as view
 from .repairing import Keep as Keep
-from .repairing import Made as Made
+from .repairing import Output as Output
 from .repairing import Violation as Violation
 from .repairing import repair as repair
 from .result import Result as Result

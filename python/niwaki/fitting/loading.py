@@ -50,6 +50,6 @@ def generator_of_recipe(recipe: Mapping[str, Any]) -> Generator:
     if recipe["kind"] not in KINDS:
         # A kind of a package above names its module.
         module, _, name = str(recipe["kind"]).partition(":")
-        made: Generator = getattr(import_module(module), name).of_recipe(recipe)
-        return made
+        generator: Generator = getattr(import_module(module), name).of_recipe(recipe)
+        return generator
     return KINDS[recipe["kind"]](recipe)

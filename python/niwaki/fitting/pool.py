@@ -88,8 +88,8 @@ class Reply:
         faces = np.frombuffer(body[cut:], "<i8").reshape(-1, 3)
         parts, at, corner = [], 0, 0
         for name, points, triangles in head.get("parts", ()):
-            own = faces[corner : corner + triangles] - at
-            parts.append((name, vertices[at : at + points], own))
+            corners = faces[corner : corner + triangles] - at
+            parts.append((name, vertices[at : at + points], corners))
             at, corner = at + points, corner + triangles
         return cls(
             vertices,

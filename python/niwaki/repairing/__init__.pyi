@@ -3,5 +3,5 @@ from .requirements import Keep as Keep
 from .result import Conflict as Conflict
 from .result import Patch as Patch
 from .result import Repair as Repair
-from .scripts import Made as Made
+from .scripts import Output as Output
 from .scripts import Violation as Violation

@@ -17,12 +17,12 @@ def conflicts_of(search: Repairing) -> Iterator[Conflict]:
         words = f"{row.requirement} ({', '.join(row.parts)})" if row.parts else row.requirement
         keeping = [trial for trial in search.sound if row.key not in trial.broken]
         if keeping:
-            others = _in_all(keeping)
-            if not others:
-                others = _names(min(keeping, key=lambda trial: trial.violated))
-            listed = ", ".join(others[:SHOWN])
+            rivals = _in_all(keeping)
+            if not rivals:
+                rivals = _names(min(keeping, key=lambda trial: trial.violated))
+            listed = ", ".join(rivals[:SHOWN])
             yield Conflict(
-                words, others, f"{words} stands against {listed}: runs that keep the one break the other"
+                words, rivals, f"{words} stands against {listed}: runs that keep the one break the other"
             )
             continue
         yield Conflict(words, (), f"{words} is broken in every run: {_cause(search, row.parts)}")

@@ -202,8 +202,10 @@ def solid(node: Node, kernel: Any) -> Any:
         scale = args.get("scale", [1.0, 1.0])
         turned = args.get("twist", 0.0)
         steps = int(args.get("slices") or (max(1.0, abs(turned) / 10.0) if turned else 0))
-        made = flat.extrude(args["height"], steps, -turned, scale if isinstance(scale, list) else [scale] * 2)
-        return made.translate((0, 0, -args["height"] / 2)) if args.get("center") else made
+        raised = flat.extrude(
+            args["height"], steps, -turned, scale if isinstance(scale, list) else [scale] * 2
+        )
+        return raised.translate((0, 0, -args["height"] / 2)) if args.get("center") else raised
     children = [solid(child, kernel) for child in node.children]
     if node.name == "multmatrix":
         joined = body.batch_boolean(children, kernel.OpType.Add)

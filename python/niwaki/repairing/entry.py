@@ -62,7 +62,7 @@ def repair(
         a list of `nw.Violation`. None: `run` judges.
     run
         A function of a text that makes the parts of it, for scripts in a language of their own: what a script may
-        show, or `nw.Made` with violations.
+        show, or `nw.Output` with violations.
     free, fix
         Names and lines of literals that may change although they are sizes or counts, or that stay. A name is that of
         an argument, of a variable or of a called function.
@@ -136,7 +136,7 @@ def repair(
             size = float((base.boxes[:, 1].max(axis=0) - base.boxes[:, 0].min(axis=0)).max())
             rules = Rules(names, base.boxes, runs.up, size)
             if isinstance(judge, Keep) and judge.within is not None:
-                rules.given = np.array(judge.within)
+                rules.walls = np.array(judge.within)
             named = set(free)
             known = judge if isinstance(judge, Keep) else None
             search = Repairing(
@@ -153,12 +153,12 @@ def repair(
                 search.run(progress or (lambda trial: None), patches)
             except KeyboardInterrupt:
                 interrupted = True
-        found = () if search is None else _patches(search, place, text, runs, patches)
-        is_repaired = not base.violations or (bool(found) and found[0].repairs)
+        answers = () if search is None else _patches(search, place, text, runs, patches)
+        is_repaired = not base.violations or (bool(answers) and answers[0].repairs)
         return Repair(
             str(place),
             base.violations,
-            found,
+            answers,
             () if is_repaired or search is None else tuple(conflicts_of(search)),
             runs.number,
             runs.failures,

@@ -1,4 +1,4 @@
-"""What a script would make with other numbers, predicted without a run of it.
+"""Predictions of the boxes and the violations of a script with other numbers, without a run of it.
 
 The box of each part is a linear function of the numbers, about a run whose boxes are known. Its derivatives come from a
 few runs with all numbers changed by tiny random amounts (`derivatives`): each coordinate depends on few numbers, so the
@@ -106,9 +106,9 @@ def _explanation(steps: Array, gram: Array, target: Array) -> tuple[list[int], A
         for support in supports:
             basis, _ = np.linalg.qr(steps[:, list(support)])
             rest = target - basis @ (basis.T @ target)
-            others = steps - basis @ (basis.T @ steps)
-            length = np.maximum(np.einsum("ij,ij->j", others, others), 1e-12)
-            gain = (others.T @ rest) ** 2 / length
+            remaining = steps - basis @ (basis.T @ steps)
+            length = np.maximum(np.einsum("ij,ij->j", remaining, remaining), 1e-12)
+            gain = (remaining.T @ rest) ** 2 / length
             gain[list(support)] = 0.0
             for k in np.argsort(-gain)[:4]:
                 extended[tuple(sorted((*support, int(k))))] = float(rest @ rest - gain[k])
@@ -142,7 +142,7 @@ class Rules:
     collide: bool = False
     scale: float = 1.0
     room: Array = field(default_factory=lambda: np.array([[np.inf] * 3, [-np.inf] * 3]))
-    given: Array | None = None
+    walls: Array | None = None
     allowed: NDArray[np.bool_] = field(init=False)
     zones: dict[tuple[str, int], Array] = field(default_factory=dict)
     support: NDArray[np.int64] = field(init=False)
@@ -206,8 +206,8 @@ class Rules:
         # Parts that overlap without a violation may do so: a rug below a table.
         self.allowed |= (deep > self.touch) & ~violated
         good = boxes[~alone]
-        if self.given is not None:
-            self.room = self.given
+        if self.walls is not None:
+            self.room = self.walls
         elif len(good):
             low, high = good[:, 0].min(axis=0), good[:, 1].max(axis=0)
             self.room = np.stack([np.minimum(self.room[0], low), np.maximum(self.room[1], high)])
@@ -244,7 +244,7 @@ class Rules:
         return np.asarray(out * self.scale)
 
     def rooms(self, boxes: Array) -> Array:
-        """Return what parts in the room that others ask for cost: (..., zones, parts)."""
+        """Return what parts in the room that remaining ask for cost: (..., zones, parts)."""
         out = []
         for (_, owner), wide in self.zones.items():
             zone = boxes[..., owner, :, :] + np.stack([-wide, wide])

@@ -33,7 +33,7 @@ Length = Annotated[float, Meta(ge=0.0)]
 Corner = tuple[float, float, float]
 
 #: What `repair` leaves to other commands.
-OTHERS = ("covered", "outside", "thinnest", "stands")
+ELSEWHERE = ("covered", "outside", "thinnest", "stands")
 
 
 class Keep(Struct, frozen=True, forbid_unknown_fields=True):
@@ -118,7 +118,7 @@ def keep_of(goal: Any) -> Keep:
     place = Path(goal)
     table = toml_of(text_of(place, "preset", "requirements"), place)
     try:
-        other = next((name for name in OTHERS if name in table), None)
+        other = next((name for name in ELSEWHERE if name in table), None)
         if other is not None:
             raise Unfit(f"$.{other}", "`collisions`, `within`, `supported` or `height`", f"`{other}`")
         rules: Keep = fitted(table, Keep)

@@ -1,4 +1,4 @@
-"""What a repair found: patches of the script, or what stands against what."""
+"""Results of a repair: patches of the script, or the requirements that stand against one another."""
 
 from __future__ import annotations
 

@@ -68,8 +68,8 @@ class Violation:
 
 
 @dataclass(frozen=True)
-class Made:
-    """What a script made, from a function that a person gives as `run`.
+class Output:
+    """The parts of a script, from a function that a person gives as `run`.
 
     Attributes
     ----------
@@ -129,13 +129,13 @@ class ScriptGenerator(Generator):
         if "numpy.random" in sys.modules:
             np.random.seed(0)
         if self.run is not None:
-            made = self.run(text)
+            output = self.run(text)
         elif self.is_scad:
-            made = parts_of_scad(text, self.path)
+            output = parts_of_scad(text, self.path)
         else:
-            made = self._python(text)
-        facts = made.violations if isinstance(made, Made) else []
-        parts = {name: _mesh(part) for name, part in parts_of(made).items()}
+            output = self._python(text)
+        facts = output.violations if isinstance(output, Output) else []
+        parts = {name: _mesh(part) for name, part in parts_of(output).items()}
         return Called(
             None, parts=parts, facts=[[row.requirement, list(row.parts), row.amount] for row in facts]
         )
@@ -201,7 +201,7 @@ class ScriptGenerator(Generator):
 def parts_of(value: Any) -> dict[str, Any]:
     """Return the parts of what a script made, by names of their own."""
     pairs: list[tuple[str, Any]]
-    if isinstance(value, Made):
+    if isinstance(value, Output):
         value = value.parts
     if isinstance(value, Mapping):
         pairs = [(str(name), part) for name, part in value.items()]

@@ -55,7 +55,7 @@ LADDER, NUMBERS, WORDS = (-2.0, -1.0, -0.5, -0.25, 0.25, 0.5, 1.0, 2.0), 32, 24
 #: Violations whose conflicts are looked for.
 SHOWN = 3
 #: Numbers are as good as those of an earlier run within this share of their changes.
-SAME = 0.06
+TOLERANCE = 0.06
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,6 +171,9 @@ class Repairing:
         self.exact, self.resizes, self.judge = exact, resizes, judge
         self.widths = {row.key: row.width(rules.size) for row in rows}
         self.slopes: dict[str, Array] = {}
+        #: Which parts each number moves, as a mask and as places.
+        self.masks: dict[str, NDArray[np.bool_]] = {}
+        self.moved: dict[str, NDArray[np.int64]] = {}
         self.sizes: list[Literal] = []
         self.volumes = np.prod(np.maximum(base.boxes[:, 1] - base.boxes[:, 0], 1e-9), axis=-1)
         self.first = max(base.violated, 1e-12)
@@ -196,6 +199,11 @@ class Repairing:
         """The run of least cost."""
         return min(self.trials, key=lambda trial: (trial.cost, trial.number))
 
+    @property
+    def least(self) -> Trial:
+        """The run in which least is violated, whatever its change costs and however many violations there are."""
+        return min(self.sound, key=lambda trial: (trial.violated, trial.cost, trial.number))
+
     def run(self, report: Callable[[Trial], None] = lambda trial: None, patches: int = 1) -> None:
         """Search until nothing is violated and nothing cheaper is predicted, or all runs are spent."""
         self.differentiate()
@@ -218,7 +226,7 @@ class Repairing:
             self.contrast()
         failures = 0
         while self.left > 0 and failures < PATIENCE and 0 < self.answers < patches:
-            values = self.proposal(others=True)
+            values = self.proposal(distinct=True)
             if values is None:
                 break
             known = self.answers
@@ -302,9 +310,11 @@ class Repairing:
         if len(rows) < 2:
             return None
         place, amount = min(rows, key=lambda row: row[1])
-        others = [row for row in rows if row[0] is not place][-3:]
-        steps = np.array([other - place for other, _ in others])
-        slope = np.linalg.lstsq(steps, np.array([other - amount for _, other in others]), rcond=1e-3)[0]
+        rows_elsewhere = [row for row in rows if row[0] is not place][-3:]
+        steps = np.array([other - place for other, _ in rows_elsewhere])
+        slope = np.linalg.lstsq(steps, np.array([other - amount for _, other in rows_elsewhere]), rcond=1e-3)[
+            0
+        ]
         return (place, amount, slope) if np.abs(slope).max() > 0.0 else None
 
     def _moves(self, name: str, key: Key) -> bool:
@@ -335,6 +345,8 @@ class Repairing:
                 self.sizes.append(row)
                 continue
             self.slopes[key] = slope
+        self.masks = {key: np.abs(slope).max(axis=(1, 2)) > 0 for key, slope in self.slopes.items()}
+        self.moved = {key: np.flatnonzero(mask) for key, mask in self.masks.items()}
         fixed = {row.key for row in self.sizes}
         self.trials = [
             replace(trial, cost=math.inf) if fixed & trial.values.keys() else trial for trial in self.trials
@@ -365,8 +377,10 @@ class Repairing:
         used: list[int] = []
         count, table = min(RUNS, self.left - 1), np.zeros((len(rows), self.base.boxes.size))
         while len(used) < MOST_RUNS and self.left > 1:
-            wanted = list(range(max(used, default=-1) + 1, min(max(used, default=-1) + 1 + count, MOST_RUNS)))
-            if not wanted:
+            candidates = list(
+                range(max(used, default=-1) + 1, min(max(used, default=-1) + 1 + count, MOST_RUNS))
+            )
+            if not candidates:
                 break
             runs = self.evaluate(
                 [
@@ -374,10 +388,10 @@ class Repairing:
                         row.key: row.value + float(step)
                         for row, step in zip(rows, steps[number] * unit, strict=True)
                     }
-                    for number in wanted
+                    for number in candidates
                 ]
             )
-            for number, run in zip(wanted, runs, strict=True):
+            for number, run in zip(candidates, runs, strict=True):
                 self.trials.append(run)
                 used.append(number)
                 if run.boxes is not None:
@@ -402,29 +416,31 @@ class Repairing:
         table[np.abs(table) < 1e-6] = 0.0
         return table.reshape(len(rows), -1)
 
-    def proposal(self, others: bool = False) -> dict[str, float] | None:
+    def proposal(self, distinct: bool = False) -> dict[str, float] | None:
         """Return the numbers of the next run; None if no plan promises a gain.
 
         Parameters
         ----------
-        others
+        distinct
             Whether to look for repairs by sets of literals that do not repair the script yet.
         """
         best, known = self.best, self._repairing()
         state = self._state()
-        if not others and state == self._idle:
+        if not distinct and state == self._idle:
             return None
         # Plans from the first run change fewest numbers; those from the best are more likely to be right.
         starts = [self.base] if len(self.trials) % BASE == 0 or best is self.base else []
         starts += [best] if best is not self.base else []
-        limit = self.base.cost if others else best.cost - (GAIN if not best.violations else 1e-6)
+        least = self.least
+        starts += [least] if least is not best and len(self.trials) % BASE == 2 else []
+        limit = self.base.cost if distinct else best.cost - (GAIN if not best.violations else 1e-6)
         plans: list[_Node] = []
-        for start in [self.base] if others else starts:
+        for start in [self.base] if distinct else starts:
             plans += self.plan(start)
         for plan in sorted(plans, key=lambda plan: plan.cost):
             if plan.cost >= limit:
                 break
-            if others and (frozenset(plan.values) in known or plan.is_violated):
+            if distinct and (frozenset(plan.values) in known or plan.is_violated):
                 continue
             if not self._is_like_earlier(plan.values):
                 return plan.values
@@ -446,19 +462,19 @@ class Repairing:
         """Tell whether a run with about the same numbers is known."""
         for trial in self.trials:
             if trial.values.keys() == values.keys() and all(
-                abs(values[key] - value) <= SAME * abs(value - self.rows[key].value)
+                abs(values[key] - value) <= TOLERANCE * abs(value - self.rows[key].value)
                 for key, value in trial.values.items()
             ):
                 return True
         return False
 
     def alternatives(self) -> dict[str, float] | None:
-        """Return the best run with one literal changed, though no rule promises a gain; None if all are known.
+        """Return a good run with one literal changed, though no rule promises a gain; None if all are known.
 
         Numbers that move what is violated come first, those of least predicted cost if the violation ended; then words
         and counts, those near the names and lines of what is violated.
         """
-        best = self.best
+        best = self.least if len(self.trials) % 3 == 2 else self.best
         assert best.boxes is not None
         node = self._node(best)
         options: list[tuple[float, dict[str, float]]] = []
@@ -487,7 +503,7 @@ class Repairing:
             for part in row.parts
             for word in re.findall(r"[A-Za-z]{3,}", part)
         }
-        others: list[tuple[float, dict[str, float]]] = []
+        replacements: list[tuple[float, dict[str, float]]] = []
         for key, literal in self.rows.items():
             here = best.values.get(key, literal.value)
             named = any(
@@ -495,15 +511,15 @@ class Repairing:
             )
             far = min((abs(literal.line - line) for line in lines), default=0)
             if literal.kind == "word":
-                others += [
+                replacements += [
                     (far - (1000 if named else 0), self._with(best, key, float(number)))
                     for number in range(len(literal.words))
                     if number != here
                 ]
             elif literal.kind == "count":
-                others += [(500 + far, self._with(best, key, here + step)) for step in (-1, 1)]
+                replacements += [(500 + far, self._with(best, key, here + step)) for step in (-1, 1)]
         numbers = [entry for _, entry in sorted(options, key=lambda option: option[0])[:NUMBERS]]
-        words = [entry for _, entry in sorted(others, key=lambda option: option[0])[:WORDS]]
+        words = [entry for _, entry in sorted(replacements, key=lambda option: option[0])[:WORDS]]
         # A word for each number.
         for option in chain.from_iterable(zip_longest(words, numbers)):
             if option is not None and not self._is_like_earlier(option):
@@ -527,14 +543,14 @@ class Repairing:
                     if slope[places].any()
                     for step in self._steps(node, item, slope, self.widths[key])
                 ]
-                if not children or self._own(node, kind, places) <= 0.0:
+                if not children or self._remainder(node, kind, places) <= 0.0:
                     break
-                node = min(children, key=lambda child: (self._own(child, kind, places), child.cost))
-            if self._own(node, kind, places) <= 0.0:
+                node = min(children, key=lambda child: (self._remainder(child, kind, places), child.cost))
+            if self._remainder(node, kind, places) <= 0.0:
                 self.tell(self.evaluate([node.values])[0])
 
     @staticmethod
-    def _own(node: _Node, kind: str, places: Sequence[int]) -> float:
+    def _remainder(node: _Node, kind: str, places: Sequence[int]) -> float:
         """Return what one violation costs in a predicted run."""
         return float(node.alone[places[0]] if kind == "alone" else node.pairs[places[0], places[-1]])
 
@@ -640,14 +656,13 @@ class Repairing:
 
     def _children(self, node: _Node, hopes: int) -> list[tuple[float, _Node, str, float, Eased]]:
         out: list[tuple[float, _Node, str, float, Eased]] = []
-        wanted: dict[tuple[str, Eased], set[float]] = {}
+        candidates: dict[tuple[str, Eased], set[float]] = {}
         for item in self._items(node, hopes):
-            movers = [
-                (int((np.abs(slope).max(axis=(1, 2)) > 0).sum()), key)
-                for key, slope in self.slopes.items()
-                if np.any(slope[list(item.parts)])
-            ]
-            for _, key in sorted(movers)[:TRIED]:
+            parts = list(item.parts)
+            movers = sorted(
+                (len(self.moved[key]), key) for key, mask in self.masks.items() if mask[parts].any()
+            )
+            for _, key in movers[:TRIED]:
                 row, here = self.rows[key], node.values.get(key, self.rows[key].value)
                 eased = None
                 if item.key is not None:
@@ -662,12 +677,12 @@ class Repairing:
                 for step, eased in steps:
                     value = here + step
                     spelled = {*rounded(here, value, row.value), coarse(row, here, value)} - {here}
-                    wanted.setdefault((key, eased), set()).update(spelled)
+                    candidates.setdefault((key, eased), set()).update(spelled)
                 if here != row.value:
-                    wanted.setdefault((key, None), set()).add(row.value)
+                    candidates.setdefault((key, None), set()).add(row.value)
         for key in node.values:
-            wanted.setdefault((key, None), set()).add(self.rows[key].value)
-        for (key, eased), values in wanted.items():
+            candidates.setdefault((key, None), set()).add(self.rows[key].value)
+        for (key, eased), values in candidates.items():
             if key not in self.slopes:
                 continue
             reach = self.reach.get(key, math.inf)
@@ -773,7 +788,7 @@ class Repairing:
         rules, slope = self.rules, self.slopes[key]
         here = node.values.get(key, self.rows[key].value)
         boxes = node.boxes[None] + (values - here)[:, None, None, None] * slope[None]
-        touched = np.flatnonzero(np.abs(slope).max(axis=(1, 2)) > 0)
+        touched = self.moved[key]
         rows = rules.pairs(boxes[:, touched], boxes, touched)
         among = rows[:, :, touched]
         old = node.pairs[touched]
@@ -794,13 +809,13 @@ class Repairing:
             total, number = total + amount, number + (amount > 0)
         # Differences of sums round.
         total = np.where(total < 1e-9 * self.first, 0.0, total)
-        others = {name: value for name, value in node.values.items() if name != key}
-        changed = len(others) + (values != self.rows[key].value)
+        rest = {name: value for name, value in node.values.items() if name != key}
+        changed = len(rest) + (values != self.rows[key].value)
         fixed = sum(
-            ((value - self.rows[name].value) / self.widths[name]) ** 2 for name, value in others.items()
+            ((value - self.rows[name].value) / self.widths[name]) ** 2 for name, value in rest.items()
         )
         wide = fixed + ((values - self.rows[key].value) / self.widths[key]) ** 2
-        before = sum(further(self.rows[name], value) for name, value in others.items())
+        before = sum(further(self.rows[name], value) for name, value in rest.items())
         digits = before + np.array([further(self.rows[key], float(value)) for value in values])
         change = NUMBER * changed + FAR * self._far(boxes) + WIDE * wide + DIGIT * digits
         return np.asarray(ALL * total / self.first + EACH * number + _limited(change))

@@ -104,7 +104,7 @@ def repair(
         print(json.dumps(result.report()))
     else:
         _print(result)
-    chosen = write if write is not None or as_json else _asked(result)
+    chosen = write if write is not None or as_json else _choice(result)
     if chosen is not None:
         if not 1 <= chosen <= len(result.patches):
             raise InputError(
@@ -178,7 +178,7 @@ def _title(number: int, patch: Patch) -> str:
     return f"patch {number}: {counted(patch.numbers, 'literal')}, {far}{state}"
 
 
-def _asked(result: Repair) -> int | None:
+def _choice(result: Repair) -> int | None:
     """Ask which patch is written; None if nobody can answer, or none is accepted."""
     if not result.patches or not (sys.stdin.isatty() and sys.stdout.isatty()):
         return None

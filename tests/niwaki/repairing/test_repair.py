@@ -136,10 +136,10 @@ def test_a_word_replaces_another_where_numbers_stay(tmp_path: Path) -> None:
     place = tmp_path / "words.py"
     place.write_text("side = LEFT\nat = 2\n")
 
-    def run(text: str) -> nw.Made:
+    def run(text: str) -> nw.Output:
         x = 1.5 if "RIGHT" in text else -0.5
         boxes = {"a": np.array([[x, 0, 0], [x + 1, 1, 1]]), "b": np.array([[0.0, 0, 0], [1, 1, 1]])}
-        return nw.Made(boxes, [] if x > 1 else [nw.Violation("apart", ("a", "b"), 0.5)])
+        return nw.Output(boxes, [] if x > 1 else [nw.Violation("apart", ("a", "b"), 0.5)])
 
     repair = nw.repair(place, run=run, words=[{"LEFT", "RIGHT"}], workers=0)
     assert repair.best is not None and repair.best.changed == "side = RIGHT\nat = 2\n"
