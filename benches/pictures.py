@@ -102,10 +102,10 @@ def repairs() -> Image.Image:
     rows: list[list[Image.Image]] = [[], []]
     for name in ("bedroom", "dining", "flat", "shelf"):
         place = repair.SCRIPTS / f"{name}.py"
-        found = nw.repair(place, repair.keep_in(place.read_text()), workers=0)
-        assert found.best is not None
+        answer = nw.repair(place, repair.keep_in(place.read_text()), workers=0)
+        assert answer.best is not None
         scenes = []
-        for violations, parts in ((found.before, found.parts), (found.best.violations, found.best.parts)):
+        for violations, parts in ((answer.before, answer.parts), (answer.best.violations, answer.best.parts)):
             wrong = {part for row in violations for part in row.parts}
             meshes = [
                 (name, [nw.mesh(v, f, color=(0.78, 0.25, 0.2) if name in wrong else (0.78, 0.74, 0.66))])

@@ -42,7 +42,7 @@ BEAM, DEPTH, ATTENDED = 3, 12, 3
 #: The most numbers that are tried against one violation.
 TRIED = 12
 #: Runs without a gain after which the search ends; runs that look for a smaller change of a script that is repaired.
-PATIENCE, POLISH = 48, 4
+PATIENCE, POLISH = 80, 4
 #: A plan of a repaired script is run if it costs less by this.
 GAIN = 0.3
 #: The share of an unexplained violation that a move of its part is hoped to end; after each failure the half of it.
@@ -178,6 +178,8 @@ class Repairing:
         self.volumes = np.prod(np.maximum(base.boxes[:, 1] - base.boxes[:, 0], 1e-9), axis=-1)
         self.first = max(base.violated, 1e-12)
         self.hopes: dict[Key, float] = {}
+        #: What is still to be tried, by the number of the run that it changes.
+        self.listed: dict[int, list[dict[str, float]]] = {}
         #: Where the parts of each violation were, and how far it was violated, in runs in which they were elsewhere.
         self.seen: dict[Key, list[tuple[Array, float]]] = {}
         self.base = self.priced(base)
@@ -448,13 +450,13 @@ class Repairing:
         return None
 
     def _state(self) -> tuple[object, ...]:
-        """Return all that plans depend on."""
+        """Return all that plans depend on, but hopes: less of them makes no plan better."""
         rules = self.rules
         return (
             self.best.number,
             *(rules.allowed.tobytes(), rules.room.tobytes(), rules.scale),
             *(tuple(sorted((key, wide.tobytes()) for key, wide in rules.zones.items())),),
-            *(tuple(self.reach.items()), tuple(self.hopes.items())),
+            tuple(self.reach.items()),
             tuple(len(rows) for rows in self.seen.values()),
         )
 
@@ -475,6 +477,17 @@ class Repairing:
         and counts, those near the names and lines of what is violated.
         """
         best = self.least if len(self.trials) % 3 == 2 else self.best
+        if best.number not in self.listed:
+            self.listed[best.number] = self._alternatives(best)
+        listed = self.listed[best.number]
+        while listed:
+            values = listed.pop(0)
+            if not self._is_like_earlier(values):
+                return values
+        return None
+
+    def _alternatives(self, best: Trial) -> list[dict[str, float]]:
+        """List the run with one literal changed, the most promising changes first."""
         assert best.boxes is not None
         node = self._node(best)
         options: list[tuple[float, dict[str, float]]] = []
@@ -521,10 +534,7 @@ class Repairing:
         numbers = [entry for _, entry in sorted(options, key=lambda option: option[0])[:NUMBERS]]
         words = [entry for _, entry in sorted(replacements, key=lambda option: option[0])[:WORDS]]
         # A word for each number.
-        for option in chain.from_iterable(zip_longest(words, numbers)):
-            if option is not None and not self._is_like_earlier(option):
-                return option
-        return None
+        return [option for option in chain.from_iterable(zip_longest(words, numbers)) if option is not None]
 
     def contrast(self) -> None:
         """Run the script so that each violation that is left ends, whatever else is violated then."""
