@@ -295,15 +295,18 @@ def _of_python(text: str, words: list[tuple[str, ...]]) -> Iterator[Literal]:
         kind = state if state in ("count", "size") else kind_of(names, called)
         if kind == "count" and not is_whole:
             kind = "length"
-        fixed = state == "fixed" or setting or (is_whole and (node in factors)) or not math.isfinite(value)
+        # A mean of two, and a number of turns.
+        formula = (is_whole and node in factors) or (value == 2.0 and node in halves) or _is_turn(value)
+        fixed = state == "fixed" or setting or formula or not math.isfinite(value)
         yield Literal(start, end, node.lineno, text[start:end], value, kind, names, sign, (), fixed)
 
-    factors = set[ast.AST]()
+    factors, halves = set[ast.AST](), set[ast.AST]()
     for outer in ast.walk(tree):
         if isinstance(outer, ast.BinOp):
             sides = {outer.left, outer.right}
             if isinstance(outer.op, ast.Div | ast.FloorDiv | ast.Mod | ast.Pow):
                 factors |= sides
+                halves.add(outer.right)
             elif isinstance(outer.op, ast.Mult):
                 factors |= {
                     side for side in sides if isinstance(side, ast.Constant) and _is_formula(side.value)
@@ -313,6 +316,11 @@ def _of_python(text: str, words: list[tuple[str, ...]]) -> Iterator[Literal]:
 
 def _is_formula(value: object) -> bool:
     return isinstance(value, int) and value <= FORMULA
+
+
+def _is_turn(value: float) -> bool:
+    """Tell whether a number is half a turn, or a simple part of one, in radians, with three digits or more."""
+    return any(abs(abs(value) - share * math.pi) < 4e-3 for share in (0.5, 1.0, 1.5, 2.0))
 
 
 def _called(node: ast.Call) -> str:
@@ -399,7 +407,9 @@ def _of_scad(text: str) -> Iterator[Literal]:
                 kind = "size"
             whole = re.fullmatch(r"\d+", word) is not None
             factor = before == "*" or after == "*"
-            fixed = bool(first & SETTINGS) or (whole and (before in "/%^" or after in "/%^"))
+            fixed = (
+                bool(first & SETTINGS) or _is_turn(value) or (whole and (before in "/%^" or after in "/%^"))
+            )
             fixed = fixed or (whole and factor and float(word) <= FORMULA)
             fixed = fixed or bool(stack and _is_index(tokens, number))
             end = start + len(word)

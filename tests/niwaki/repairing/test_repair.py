@@ -148,7 +148,7 @@ def test_a_word_replaces_another_where_numbers_stay(tmp_path: Path) -> None:
 def test_kinds_of_literals() -> None:
     text = (
         "n = 3\nx = 1.5\nfor k in range(n):\n    y = k * 2 + x / 2 - 0.25\n"
-        "box(size=(1.0, 2.0), angle=30, seed=4)\npoints[0] = rotate(45.0)\nif x > 0.5: z = -1.5e-3\ncolor = [0.5]\n"
+        "box(size=(1.0, 2.0), angle=30, seed=4)\npoints[0] = rotate(45.0)\nif x > 0.5: z = -1.5e-3\ncolor = [0.5]\nmean = (a + b) / 2.0 + 3.1416\n"
     )
     rows = {(row.line, row.text): row for row in literals(text)}
     kinds = {key: (row.kind, row.is_fixed) for key, row in rows.items()}
@@ -165,6 +165,8 @@ def test_kinds_of_literals() -> None:
         (6, "45.0"): ("angle", False),
         (7, "-1.5e-3"): ("length", False),
         (8, "0.5"): ("colour", True),
+        (9, "2.0"): ("length", True),
+        (9, "3.1416"): ("length", True),
     }
     assert rows[(4, "0.25")].value == -0.25
 
