@@ -14,6 +14,7 @@ from the violations of all runs so far:
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -184,9 +185,17 @@ class Rules:
         deep = depths(boxes[:, None], boxes[None])
         violated = np.zeros_like(self.allowed)
         alone = np.zeros(len(self.names), bool)
+        # What most parts violate alone is not that they are outside of the room.
+        common = {
+            name
+            for name, count in Counter(
+                row.requirement for row in violations if len(set(row.parts)) == 1
+            ).items()
+            if count > len(self.names) / 2
+        }
         for row in violations:
-            places = [self.index[name] for name in row.parts if name in self.index]
-            if len(places) == 1:
+            places = [self.index[name] for name in dict.fromkeys(row.parts) if name in self.index]
+            if len(places) == 1 and row.requirement not in common:
                 alone[places[0]] = True
             if len(places) != 2:
                 continue

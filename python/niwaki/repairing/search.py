@@ -300,7 +300,7 @@ class Repairing:
 
     def _place(self, boxes: Array, key: Key) -> Array | None:
         """Return the middle of a violation's part, or how far that of the first is from that of the second."""
-        places = [self.rules.index[part] for part in key[1] if part in self.rules.index]
+        places = [self.rules.index[part] for part in dict.fromkeys(key[1]) if part in self.rules.index]
         if not 1 <= len(places) <= 2:
             return None
         middles = boxes[..., places, :, :].mean(axis=-2)
@@ -321,7 +321,7 @@ class Repairing:
 
     def _moves(self, name: str, key: Key) -> bool:
         slope = self.slopes.get(name)
-        places = [self.rules.index[part] for part in key[1] if part in self.rules.index]
+        places = [self.rules.index[part] for part in dict.fromkeys(key[1]) if part in self.rules.index]
         return slope is not None and bool(np.any(slope[places]))
 
     def differentiate(self) -> None:
@@ -406,7 +406,9 @@ class Repairing:
             table, explained = derivatives(steps[good] * unit, np.array(moved))
             matters = np.zeros((len(self.rules.names), 6), bool)
             for row in self.base.violations:
-                matters[[self.rules.index[name] for name in row.parts if name in self.rules.index]] = True
+                matters[
+                    [self.rules.index[name] for name in dict.fromkeys(row.parts) if name in self.rules.index]
+                ] = True
             if explained[matters.ravel()].all():
                 break
             count = 3
@@ -493,7 +495,7 @@ class Repairing:
         options: list[tuple[float, dict[str, float]]] = []
         lines: set[int] = set()
         for row in best.violations:
-            places = [self.rules.index[name] for name in row.parts if name in self.rules.index]
+            places = [self.rules.index[name] for name in dict.fromkeys(row.parts) if name in self.rules.index]
             item = _Item(row.amount, "rest", tuple(places), None, row.key)
             for key, slope in self.slopes.items():
                 if not slope[places].any():
@@ -540,7 +542,7 @@ class Repairing:
         """Run the script so that each violation that is left ends, whatever else is violated then."""
         best = self.best
         for row in best.violations[:SHOWN]:
-            places = [self.rules.index[name] for name in row.parts if name in self.rules.index]
+            places = [self.rules.index[name] for name in dict.fromkeys(row.parts) if name in self.rules.index]
             if self.left < 1 or not places or any(row.key not in trial.broken for trial in self.sound[1:]):
                 continue
             kind = "alone" if len(places) == 1 else "pair"
@@ -589,7 +591,7 @@ class Repairing:
         self.trends = {}
         zones = list(rules.zones)
         for row in start.violations:
-            places = [rules.index[name] for name in row.parts if name in rules.index]
+            places = [rules.index[name] for name in dict.fromkeys(row.parts) if name in rules.index]
             is_known = (len(places) == 1 and alone[places[0]] > 0) or (
                 len(places) == 2
                 and (
@@ -639,6 +641,9 @@ class Repairing:
             lowest = min(lowest, *(child.cost for child in beam))
             if level == 2:
                 break
+        # What is predicted of the run that is known, and what is known, differ: so, about, do the others.
+        for child in nodes:
+            child.cost += start.cost - node.cost
         return nodes
 
     def _items(self, node: _Node, hopes: int) -> list[_Item]:
@@ -655,7 +660,11 @@ class Repairing:
         items.sort(key=lambda item: -item.cost)
         rest = [
             _Item(
-                amount, "rest", tuple(self.rules.index[p] for p in key[1] if p in self.rules.index), None, key
+                amount,
+                "rest",
+                tuple(self.rules.index[p] for p in dict.fromkeys(key[1]) if p in self.rules.index),
+                None,
+                key,
             )
             for key, amount in node.rest.items()
             if amount > 0
