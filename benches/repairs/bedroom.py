@@ -1,4 +1,4 @@
-"""A bedroom: the wardrobe's door side stands in the bed, and the lamp hangs beside its table."""
+"""A bedroom: the chair stands in the desk, and the lamp hangs beside its table."""
 
 # keep: collisions = false
 # keep: supported = true

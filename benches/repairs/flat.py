@@ -1,4 +1,4 @@
-"""A floor plan of a small flat: a wall in the bath, a bed in the wall, a sofa in front of the door."""
+"""A floor plan of a small flat: a tub in the wall, a bed in the wall, a sofa in front of the door."""
 
 # keep: collisions = false
 # keep: within = [[0.0, 0.0, 0.0], [8.0, 2.6, 6.0]]

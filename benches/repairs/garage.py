@@ -1,4 +1,4 @@
-"""A garage: the car stands in the bench, and the tyres hang above their rack."""
+"""A garage: the tyres hang above their rack."""
 
 # keep: collisions = false
 # keep: supported = true

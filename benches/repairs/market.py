@@ -1,4 +1,4 @@
-"""Two rows of stalls along a lane: the second row is not shifted as its comment says."""
+"""Two rows of stalls along a lane: the shifted row leaves the market, and a stall stands in the well."""
 
 # keep: collisions = false
 # keep: within = [[-8.0, 0.0, -5.0], [8.0, 4.0, 5.0]]

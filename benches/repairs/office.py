@@ -1,4 +1,4 @@
-"""Rows of desks: they leave the room, and the cabinet stands in the last desk."""
+"""Rows of desks: the cabinet stands in the last desk."""
 
 # keep: collisions = false
 # keep: within = [[0.0, 0.0, 0.0], [9.0, 3.0, 6.0]]

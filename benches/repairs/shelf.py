@@ -1,4 +1,4 @@
-"""A shelf with books: two rows of books stand in the boards above them."""
+"""A shelf with books: all books stand in the boards above them."""
 
 # keep: collisions = false
 from niwaki import box

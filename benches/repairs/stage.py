@@ -1,4 +1,4 @@
-"""A stage: a lamp on each stand, but one stand is in the piano, and the screen is higher than the hall."""
+"""A stage: the stand of a lamp is in the piano, and the screen hangs too high and above nothing."""
 
 # keep: collisions = false
 # keep: supported = true

@@ -1,4 +1,4 @@
-"""A flight of steps beside a platform: the last step is in the platform, and the rail post beside the first one."""
+"""A flight of steps beside a platform: the last step is in the platform, and the rail's post hangs above the first one."""
 
 # keep: collisions = false
 # keep: supported = true

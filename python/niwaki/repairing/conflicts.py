@@ -17,10 +17,8 @@ def conflicts_of(search: Repairing) -> Iterator[Conflict]:
         words = f"{row.requirement} ({', '.join(row.parts)})" if row.parts else row.requirement
         keeping = [trial for trial in search.sound if row.key not in trial.broken]
         if keeping:
-            rivals = _in_all(keeping)
-            if not rivals:
-                rivals = _names(min(keeping, key=lambda trial: trial.violated))
-            listed = ", ".join(rivals[:SHOWN])
+            rivals = _in_all(keeping) or _nearest(keeping)
+            listed = " or ".join(rivals[:SHOWN])
             yield Conflict(
                 words, rivals, f"{words} stands against {listed}: runs that keep the one break the other"
             )
@@ -42,6 +40,12 @@ def _in_all(trials: list[Trial]) -> tuple[str, ...]:
         kept = set(_names(trial))
         names = tuple(name for name in names if name in kept)
     return names
+
+
+def _nearest(trials: list[Trial]) -> tuple[str, ...]:
+    """Return what the runs in which least is violated violate most: one thing of each."""
+    ordered = sorted(trials, key=lambda trial: (trial.violated, trial.number))
+    return tuple(dict.fromkeys(_names(trial)[0] for trial in ordered))[:SHOWN]
 
 
 def _cause(search: Repairing, parts: tuple[str, ...]) -> str:
