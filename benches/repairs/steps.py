@@ -1,4 +1,4 @@
-"""A flight of steps beside a platform: the last step is in the platform, and the rail's post hangs above the first one."""
+"""Steps beside a platform: the last step is in the platform, and the post of the rail hangs above the first one."""
 
 # keep: collisions = false
 # keep: supported = true
