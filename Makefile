@@ -26,6 +26,7 @@
 #   make bench-fit-furniture  furniture by other people (FURNITURE=the Debian package), fitted by a chair and a shelf
 #   make bench-fit-blender  hidden values of two node trees, found by `nw.fit` (NIWAKI_BLENDER=the program, or a Python
 #                 that has bpy)
+#   make bench-repair  scripts repaired by few numbers; with NIWAKI_SCENE_PROGRAMS beside an optimiser made for them
 #   make bench-batch  a thousand searches, killed ten times: their bytes, and the CPU beyond the searches (2 minutes)
 #   make studio-page  bundle the studio's page again, into python/niwaki/studio/page (needs node and npm)
 #   make test-studio  the studio in a browser: its journeys, their times, screenshots in out/studio (needs Chromium)
@@ -81,7 +82,7 @@ PYTHONS :=
 MINUTES := 10
 JOBS := 1
 
-.PHONY: all demo guides test test-binaries lint-rust lint-python studio-page test-studio studio-pictures blender test-blender blender-pictures lint counts recorded bench bench-c3 bench-hmc bench-vi bench-wait bench-sketches bench-drag bench-searches bench-fit bench-batch check-files figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean imports words bench-fit-intervals bench-fit-furniture bench-fit-blender
+.PHONY: all demo guides test test-binaries lint-rust lint-python studio-page test-studio studio-pictures blender test-blender blender-pictures lint counts recorded bench bench-c3 bench-hmc bench-vi bench-wait bench-sketches bench-drag bench-searches bench-fit bench-batch check-files figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean imports words bench-fit-intervals bench-fit-furniture bench-fit-blender bench-repair
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -232,6 +233,9 @@ bench-fit-furniture: $(STAMPS)/engine $(STAMPS)/bench-fit
 
 bench-fit-blender: $(STAMPS)/engine
 	$(PY) benches/fit_blender.py
+
+bench-repair: $(STAMPS)/engine
+	$(PY) benches/repair.py $(ONLY)
 
 bench-batch: $(STAMPS)/engine
 	$(PY) benches/batch.py

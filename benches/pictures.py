@@ -5,6 +5,7 @@
 pairs.png: six targets, each beside what grew into it; solids.png: each word that makes a solid; holes.png: solids
 cut from others;
 ships.png: ten ships in one target; tree.png: three trees in one target and, below, three without a target;
+repair.png: scripts before and after a repair;
 growth.gif: the best of the ships, growing; letters.png: a word in vines and one in lightning. Each stays below
 `LARGEST` bytes.
 """
@@ -17,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import niwaki as nw
+import repair
 import solid_files
 from niwaki import gallery, letters
 from niwaki.draw.picture import picture
@@ -59,6 +61,7 @@ def draw(folder: Path) -> list[Path]:
         written(folder / "ships.png", fleet(ships), LARGEST // 4),
         written(folder / "tree.png", garden(trees)),
         written(folder / "letters.png", words()),
+        written(folder / "repair.png", repairs(), LARGEST // 4),
         ships.best.animate(folder / "growth.gif", seconds=3.0, size=(320, 200), elevation=30.0, margin=0.03),
     ]
 
@@ -92,6 +95,30 @@ def holes() -> Image.Image:
     """A wall with arched windows; a sphere and a box, cut in three ways."""
     scenes = [Scene([(name, [shape])]) for name, shape in solid_files.cuts().items()]
     return sheet(scenes, columns=4, size=(180, 120), elevation=20.0)
+
+
+def repairs() -> Image.Image:
+    """Scripts of the bench before and, below, after their repair; parts that violate a requirement are red."""
+    rows: list[list[Image.Image]] = [[], []]
+    for name in ("bedroom", "dining", "flat", "shelf"):
+        place = repair.SCRIPTS / f"{name}.py"
+        answer = nw.repair(place, repair.keep_in(place.read_text()), workers=0)
+        assert answer.best is not None
+        scenes = []
+        for violations, parts in ((answer.before, answer.parts), (answer.best.violations, answer.best.parts)):
+            wrong = {part for row in violations for part in row.parts}
+            meshes = [
+                (name, [nw.mesh(v, f, color=(0.78, 0.25, 0.2) if name in wrong else (0.78, 0.74, 0.66))])
+                for name, v, f in parts
+            ]
+            scenes.append(Scene(meshes))
+        for row, scene in zip(rows, scenes, strict=True):
+            row.append(picture(scene, size=(240, 190), elevation=38.0, margin=0.03, frame=scenes[0]))
+    page = Image.new("RGB", (240 * len(rows[0]), 380), "white")
+    for j, row in enumerate(rows):
+        for i, cell in enumerate(row):
+            page.paste(cell, (240 * i, 190 * j))
+    return page
 
 
 def fleet(ships: Result) -> Image.Image:

@@ -132,6 +132,7 @@ BY_NAME = {
     "errors/extras.py",
     "fitting/functions.py",
     "fitting/in_blender/serve.py",
+    "fitting/loading.py",
     "fitting/openscad.py",
     "gallery/__init__.py",
     "inputs/child.py",

@@ -36,6 +36,16 @@ voxel = 0.5
 particles = [5, 10]
 """
 
+ROOM = """
+from niwaki import box
+
+gap = 0.1
+parts = {
+    "bed": box((-1.2, 0.3, 0.0), (1, 0.6, 2)),
+    "desk": box((-0.8 + gap, 0.4, 0.4), (1, 0.8, 0.6)),
+    "shelf": box((1.7, 1.0, -0.2), (0.8, 2, 0.3)),
+}
+"""
 SLAB = """
 from niwaki import Uniform, box
 
@@ -86,6 +96,7 @@ CALLS: dict[str, Sequence[Sequence[str]]] = {
     "fit": [
         "fit slab.py:slab --target gallery:ship --voxel 1 --evaluations 20 --workers 1 --seed 1 --json".split()
     ],
+    "repair": ["repair room.py --workers 0 --patches 2 --write 1".split()],
     "batch": [
         ["batch", "run", "ships.toml", "--processes", "1"],
         "batch export ships --format csv,png,glb -n 3 --choices".split(),
@@ -133,6 +144,8 @@ def place() -> Iterator[Path]:
         folder = Path(name).resolve()
         (folder / "ships.toml").write_text(SPEC)
         (folder / "slab.py").write_text(SLAB)
+        (folder / "room.py").write_text(ROOM)
+        (folder / "requirements.toml").write_text("collisions = false\nwithin = [[-2, 0, -2], [2, 3, 2]]\n")
         (folder / "pages").mkdir()
         for number in range(4):
             page = np.full((100, 100), 255, dtype=np.uint8)

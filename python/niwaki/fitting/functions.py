@@ -109,6 +109,11 @@ class FunctionGenerator(Generator):
 
     @classmethod
     def of_recipe(cls, recipe: Mapping[str, Any]) -> FunctionGenerator:
+        """Load the function, and make the generator again."""
+        return cls(cls.loaded(recipe))
+
+    @staticmethod
+    def loaded(recipe: Mapping[str, Any]) -> Callable[..., Any]:
         """Load the function by its module, or run its file up to the call of `fit`."""
         holder: Any = None
         if recipe["module"]:
@@ -120,7 +125,8 @@ class FunctionGenerator(Generator):
             holder = _of_file(Path(recipe["file"]))
         for part in str(recipe["name"]).split("."):
             holder = getattr(holder, part)
-        return cls(holder)
+        function: Callable[..., Any] = holder
+        return function
 
 
 class FailedRun(Exception):

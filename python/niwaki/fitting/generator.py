@@ -28,10 +28,16 @@ class Called:
         What the generator returned: see `niwaki.fitting.meshes`.
     drawn : list of Drawn
         The draws of a function that is defined by run, in order; empty for all others.
+    parts : dict or None
+        What was returned as parts with names, in place of one mesh.
+    facts : list
+        What the generator says about the result, as JSON.
     """
 
     mesh: Any
     drawn: list[Drawn] = field(default_factory=list)
+    parts: Mapping[str, Any] | None = None
+    facts: list[Any] = field(default_factory=list)
 
 
 class Generator(ABC):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
+from importlib import import_module
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,13 @@ from niwaki.lang.models import Model
 
 #: A Blender file, with its object and its modifier.
 BLEND = re.compile(r"(.*\.blend)(?::([^:]+))?(?::([^:]+))?", re.IGNORECASE)
+
+#: How generators are made again, by the kinds of their recipes.
+KINDS: dict[str, Callable[[Mapping[str, Any]], Generator]] = {
+    "function": FunctionGenerator.of_recipe,
+    "command": CommandGenerator.of_recipe,
+    "scad": ScadGenerator.of_recipe,
+}
 
 
 def generator_of(model: Any) -> Generator:
@@ -84,9 +92,9 @@ def _in_file(reference: str) -> Generator:
 
 def generator_of_recipe(recipe: Mapping[str, Any]) -> Generator:
     """Make a generator again from its data, in a worker process."""
-    kinds: dict[str, Callable[[Mapping[str, Any]], Generator]] = {
-        "function": FunctionGenerator.of_recipe,
-        "command": CommandGenerator.of_recipe,
-        "scad": ScadGenerator.of_recipe,
-    }
-    return kinds[recipe["kind"]](recipe)
+    if recipe["kind"] not in KINDS:
+        # A kind of a package above names its module.
+        module, _, name = str(recipe["kind"]).partition(":")
+        generator: Generator = getattr(import_module(module), name).of_recipe(recipe)
+        return generator
+    return KINDS[recipe["kind"]](recipe)

@@ -63,6 +63,10 @@ class Reply:
         The draws of a function that is defined by run.
     seconds : float
         Wall time of the call.
+    parts : tuple
+        Name, vertices and faces of each part, for a generator with parts.
+    facts : tuple
+        What the generator says about the result.
     """
 
     vertices: NDArray[np.float64] | None = None
@@ -72,6 +76,8 @@ class Reply:
     defects: tuple[str, ...] = ()
     drawn: tuple[Drawn, ...] = ()
     seconds: float = 0.0
+    parts: tuple[tuple[str, NDArray[np.float64], NDArray[np.int64]], ...] = ()
+    facts: tuple[Any, ...] = ()
 
     @classmethod
     def of_answer(cls, head: Mapping[str, Any], body: bytes, seconds: float) -> Reply:
@@ -82,12 +88,19 @@ class Reply:
         cut = 24 * head["vertices"]
         vertices = np.frombuffer(body[:cut], "<f8").reshape(-1, 3)
         faces = np.frombuffer(body[cut:], "<i8").reshape(-1, 3)
+        parts, at, corner = [], 0, 0
+        for name, points, triangles in head.get("parts", ()):
+            corners = faces[corner : corner + triangles] - at
+            parts.append((name, vertices[at : at + points], corners))
+            at, corner = at + points, corner + triangles
         return cls(
             vertices,
             faces,
             defects=tuple(head["defects"] if "defects" in head else defects(vertices, faces)),
             drawn=drawn,
             seconds=seconds,
+            parts=tuple(parts),
+            facts=tuple(head.get("facts", ())),
         )
 
 

@@ -25,6 +25,7 @@ from niwaki.fitting.loading import generator_of_recipe
 from niwaki.fitting.meshes import defects, mesh_of
 from niwaki.fitting.protocol import write_answer
 from niwaki.inputs.guard import reason_of
+from niwaki.targets.pieces import joined
 
 #: Whether this process is a worker, in which `fit` does nothing.
 ACTIVE = False
@@ -68,7 +69,8 @@ def answer(generator: Generator, numbers: Mapping[str, float]) -> tuple[dict[str
     """Call a generator; return what came of it: the sizes of a mesh with its bytes, or the text of a failure."""
     try:
         called = generator.call(numbers)
-        vertices, faces = mesh_of(called.mesh)
+        meshes = None if called.parts is None else [mesh_of(part) for part in called.parts.values()]
+        vertices, faces = mesh_of(called.mesh) if meshes is None else joined(meshes)
     except (KeyboardInterrupt, MemoryError) as error:
         return {"failed": type(error).__name__}, b""
     except FailedRun as run:
@@ -80,9 +82,12 @@ def answer(generator: Generator, numbers: Mapping[str, float]) -> tuple[dict[str
     head = {
         "vertices": len(vertices),
         "faces": len(faces),
-        "defects": defects(vertices, faces),
+        "defects": defects(vertices, faces) if meshes is None else [],
         "drawn": [asdict(row) for row in called.drawn],
     }
+    if called.parts is not None and meshes is not None:
+        head["parts"] = [[name, *map(len, mesh)] for name, mesh in zip(called.parts, meshes, strict=True)]
+        head["facts"] = called.facts
     body = np.ascontiguousarray(vertices, "<f8").tobytes() + np.ascontiguousarray(faces, "<i8").tobytes()
     return head, body
 

@@ -27,7 +27,10 @@ _run: dict[str, tuple[str, Path]] = {}
 
 
 def run_file(
-    place: Path, name: str = "", check: Callable[[bytes], object] | None = None
+    place: Path,
+    name: str = "",
+    check: Callable[[bytes], object] | None = None,
+    source: bytes | None = None,
 ) -> tuple[ModuleType, str]:
     """Run a file as a module that can import from its folder, as `python file.py` does.
 
@@ -41,6 +44,8 @@ def run_file(
         The public name; by default the file's name.
     check
         A function that gets the file's bytes before the run, and raises an error to refuse them.
+    source
+        What is run in place of the file's bytes, as if it stood there.
 
     Returns
     -------
@@ -56,7 +61,7 @@ def run_file(
     module.__file__ = str(place)
     try:
         # The import system is not used: its cache misses the second of two edits within a second.
-        source = bytes_of(place, "model")
+        source = bytes_of(place, "model") if source is None else source
         if check is not None:
             check(source)
         code = compile(source, str(place), "exec", dont_inherit=True)

@@ -76,7 +76,7 @@ HOSTS = {
 }
 
 #: The other commands: none of them searches for long.
-SHORT = {"models", "doctor", "studio", "mcp", "init"}
+SHORT = {"models", "doctor", "studio", "mcp", "init", "repair"}
 
 
 @contextmanager

@@ -144,7 +144,11 @@ FLAGS = {
     "--steps": ("--steps", "N", "The number of proposals of each chain"),
     "--strategy": ("--strategy", "NAME", "The part of the model that runs again"),
     "--thin": ("--thin", "N", "The number of proposals between two samples"),
-    "--keep": ("--keep", "N", "The approximate number of samples of each chain"),
+    "--keep": (
+        "--keep",
+        "N|FILE",
+        ("The approximate number of samples of each chain", "Requirements to keep."),
+    ),
     "--warmup": ("--warmup", "N", "The number of proposals before the first sample"),
     # Searches of which another thing is made; batches; the studio.
     "--searches": ("--searches", "N|LIST", "Number of searches for each "),
@@ -155,12 +159,22 @@ FLAGS = {
     "--evaluations": (
         "--evaluations",
         "N",
-        ("Evaluations in all, with those of the folder.", "emulate: The number of runs."),
+        (
+            "Evaluations in all, with those of the folder.",
+            "emulate: The number of runs.",
+            "The most runs of the script.",
+        ),
     ),
     "--workers": ("--workers", "N", "Processes that evaluate."),
     "--limit": ("--limit", "S", "Seconds of one evaluation, until ten are known"),
     "--align": ("--align", None, "Search the place, turn and size of the mesh, too."),
     "--generator": ("--generator", "GENERATOR", "Write a model that calls a function, file.py:function"),
+    "--free": ("--free", "NAME", "Sizes and counts that may change, too"),
+    "--fix": ("--fix", "NAME", "Literals that stay"),
+    "--words": ("--words", "A,B,...", "Names that may replace one another"),
+    "--patches": ("--patches", "N", "Number of patches"),
+    "--write": ("--write", "N", "Accept patch N"),
+    "--up": ("--up", "y|z", "The axis that points up."),
     "--processes": ("--processes", "N", "Number of worker processes."),
     "--shard": ("--shard", "I/N", "Run only a part of the batch"),
     "--engine": ("--engine", "local|ray|dask", "Engine that runs the searches."),
@@ -185,6 +199,7 @@ WORDS = {
     "FOLDER": "The folder of a batch.",
     "FILE": "The file of a guide.",
     "GENERATOR": "file.py:function, which is run, an OpenSCAD file",
+    "SCRIPT": "A Python script, file.py:function, or an OpenSCAD file. It is run.",
     "[MODEL.PY]...": "Files of models",
 }
 

@@ -38,6 +38,11 @@ from niwaki import Uniform, box
 def slab(width=Uniform(0.5, 1.5)):
     return box((0, 0, 0), (width, 1, 1))
 """
+ROOM = """
+from niwaki import box
+
+parts = {"bed": box((0.0, 0.3, 0.0), (1, 0.6, 2)), "desk": box((0.9, 0.4, 0.0), (1, 0.8, 0.6))}
+"""
 BATCH = 'model = "garden.py:tower"\nseeds = 2\n[grow]\ntarget = "gallery:ship"\nparticles = 5\nvoxel = 1.0\n'
 
 #: For each command, and each of its groups, words with which it is done soon. `{}` is the folder that is read from.
@@ -46,6 +51,7 @@ COMMANDS = {
     "show": "show {}/garden.py:tower -n 1 --quick",
     "grow": "grow {}/garden.py:tower --target gallery:ship --particles 5 --voxel 1 --quick",
     "fit": "fit {}/slab.py:slab --target gallery:ship --voxel 1 --evaluations 4 --workers 1 --seed 1 --quick -o fitted",
+    "repair": "repair {}/room.py --workers 0",
     "batch run": "batch {}/garden.toml --processes 1",
     "batch export": "batch export {}/batch --format csv,png,glb -o exported",
     "replay": "replay {}/grown/run.json --quick -o replayed",
@@ -63,7 +69,7 @@ COMMANDS = {
 }
 
 #: Those that write no file.
-QUIET = {"models", "check", "guide show", "doctor"}
+QUIET = {"models", "check", "guide show", "doctor", "repair"}
 
 #: Servers run until they are ended; what the studio does in a folder that it may not write to is tried alone.
 TRIED = {name: words for name, words in COMMANDS.items() if name not in ("studio", "mcp")}
@@ -101,6 +107,8 @@ def there(tmp_path_factory: pytest.TempPathFactory) -> Path:
     place = tmp_path_factory.mktemp("there")
     (place / "garden.py").write_text(MODEL)
     (place / "slab.py").write_text(SLAB)
+    (place / "room.py").write_text(ROOM)
+    (place / "requirements.toml").write_text("collisions = false\n")
     (place / "garden.toml").write_text(BATCH)
     shipped = Path(shell.__file__).parents[1] / "guides" / "shipped" / "lightning.guide"
     (place.parent / "lightning.guide").write_bytes(shipped.read_bytes())

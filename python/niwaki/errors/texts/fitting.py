@@ -64,6 +64,22 @@ FITTING = (
         cure='niwaki.blend("chair.blend", object="Chair", modifier="GeometryNodes")',
     ),
     Message(
+        "no-literals",
+        "nothing in `{path}` may change",
+        why="a repair changes numbers of the script; sizes, counts, colours and strings stay unless they are named",
+        help="name literals that may change by `free=`, or `--free`: an argument, a variable, a called function or a line",
+        example='niwaki.repair("room.py", keep), of a script that has only sizes',
+        cure='niwaki.repair("room.py", keep, free=["width"])',
+    ),
+    Message(
+        "script-failed",
+        "`{path}` fails as it is written",
+        why="{reason}",
+        help="run it once by hand; it has to show its parts: a variable `scene` or `parts`, or a function that returns them",
+        example='niwaki.repair("room.py", keep), of a script that only draws',
+        cure="parts = {{'table': niwaki.box((0, 0.4, 0), (1.2, 0.8, 0.7))}}",
+    ),
+    Message(
         "all-failed",
         "the first {count} evaluations of `{name}` all failed",
         why="the first: {reason}",

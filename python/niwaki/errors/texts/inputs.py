@@ -186,7 +186,7 @@ INPUTS = (
         "edited-meanwhile",
         "`{path}` has changed since this difference was computed, and was not written",
         why="a difference applies only to the text for which it was computed",
-        help="drag the part again",
+        help="drag the part again, or repair the script again",
         example="change.apply()   # after an edit of the file",
         cure="dragging.source(to)[0].apply()",
     ),

@@ -25,7 +25,8 @@ SHELL = (
         "bad-requirements",
         "`{path}` does not describe requirements",
         why="{reason}",
-        help="write `covered`, `outside`, `height`, `thinnest`, `stands` and `collisions` as needed, each at most once",
+        help="write `covered`, `outside`, `height`, `thinnest`, `stands` and `collisions` as needed, each at most once; for "
+        "`niwaki repair` write `collisions`, `within`, `supported` and `height`",
         example="height = [3.0, 2.0]",
         cure="height = [2.0, 3.0]",
     ),

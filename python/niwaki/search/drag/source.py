@@ -8,7 +8,6 @@ that has moved. Each number is tried alone, and the numbers of one tuple togethe
 from __future__ import annotations
 
 import ast
-import difflib
 import inspect
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -19,9 +18,8 @@ import numpy as np
 
 import niwaki
 from niwaki import _engine
-from niwaki.errors import InputError
-from niwaki.errors.files import write_whole
 from niwaki.errors.source import SourceFile, Span, find_function, span_of
+from niwaki.inputs.changes import Edit, FileChange
 from niwaki.lang.compiled import compile_core, translated
 from niwaki.lang.lower import lower
 from niwaki.result.search_like import SearchLike
@@ -39,26 +37,11 @@ DIGITS = 4
 
 
 @dataclass(frozen=True)
-class Edit:
-    """Edit of a piece of a line; line and columns from 1, the end excluded."""
-
-    line: int
-    column: int
-    end_column: int
-    before: str
-    after: str
-
-
-@dataclass(frozen=True)
-class SourceChange:
+class SourceChange(FileChange):
     """Change of a model's file.
 
     Attributes
     ----------
-    path : str
-        The file.
-    edits : tuple of Edit
-        The edits of the file.
     share : float
         The distance to the goal of a drag, as a share of the scene's size.
     choices : dict
@@ -67,45 +50,9 @@ class SourceChange:
         Arguments whose defaults have changed, by name.
     """
 
-    path: str
-    edits: tuple[Edit, ...]
     share: float
     choices: dict[str, float]
     arguments: dict[str, Any]
-    text: str
-
-    @property
-    def description(self) -> str:
-        """Description of the change, in a few words."""
-        return "; ".join(f"line {edit.line}: {edit.before} becomes {edit.after}" for edit in self.edits)
-
-    @property
-    def changed(self) -> str:
-        """The text of the file with the change."""
-        lines = self.text.split("\n")
-        for edit in sorted(self.edits, key=lambda edit: (edit.line, -edit.column)):
-            line = lines[edit.line - 1]
-            lines[edit.line - 1] = line[: edit.column - 1] + edit.after + line[edit.end_column - 1 :]
-        return "\n".join(lines)
-
-    def difference(self) -> str:
-        """The change as a unified difference."""
-        name = Path(self.path).name
-        before, after = (text.splitlines(keepends=True) for text in (self.text, self.changed))
-        return "".join(difflib.unified_diff(before, after, fromfile=name, tofile=name, n=1))
-
-    def apply(self) -> None:
-        """Write the file, completely or not at all.
-
-        Raises
-        ------
-        InputError
-            `edited-meanwhile`: the file has changed since this change was computed.
-        """
-        place = Path(self.path)
-        if not place.is_file() or place.read_bytes() != self.text.encode():
-            raise InputError("edited-meanwhile", path=self.path)
-        write_whole(place, self.changed.encode())
 
 
 @dataclass
@@ -187,7 +134,7 @@ def as_defaults(model: Model[..., Any], arguments: Mapping[str, Any]) -> SourceC
             span = span_of(default, file)
             edits.append(Edit(span.line, span.column, span.end_column, span.text, repr(value)))
             changed[name] = value
-    return SourceChange(file.path, tuple(edits), 0.0, {}, changed, text) if edits else None
+    return SourceChange(file.path, tuple(edits), text, 0.0, {}, changed) if edits else None
 
 
 def _source(model: Any) -> tuple[SourceFile, ast.FunctionDef | ast.Lambda, str] | None:
@@ -279,10 +226,10 @@ class _Descent:
         return SourceChange(
             path,
             edits,
+            text,
             share,
             {self.names[address]: x for address, x in choices.items() if address in self.names},
             {number.name: x for number, x in zip(numbers, rounded, strict=True) if number.name},
-            text,
         )
 
 
