@@ -41,13 +41,13 @@ def grown(seed: int = 4, **settings):
 def test_the_best_never_falls_and_is_the_result() -> None:
     result = grown()
     rounds = result.info.rounds
-    assert [rounds[0].kind, len(rounds), len(result)] == ["population", 13, 1]
+    assert [rounds[0].step, len(rounds), len(result)] == ["population", 13, 1]
     bests = [line.best for line in rounds]
     assert bests == sorted(bests)
     assert bests[-1] > bests[0] + 1.0
     assert result.best.log_score == bests[-1]
     assert all(line.work > 0 for line in rounds)
-    assert {line.kind for line in rounds} == {"population", "regrow", "regrow more", "move"}
+    assert {line.step for line in rounds} == {"population", "regrow", "regrow more", "move"}
     trace = result.best._trace.run
     assert (trace.log_score, trace.primitives) == (result.best.log_score, result.best.primitives)
 
