@@ -139,7 +139,7 @@ impl Improve {
     }
 
     /// Searches for the best run, or for several different runs, best first. If there is a `proposal`, populations and parts that are
-    /// grown again draw their choices from it. `watch` is called with the number of rounds and the best log score, after the best run
+    /// grown again draw their choices from it, and no weight corrects its draws. `watch` is called with the number of rounds and the best log score, after the best run
     /// is `shown`; when it returns false, the search ends with its best so far. Each search is a part of the `checkpoint`.
     ///
     /// # Errors
@@ -152,6 +152,8 @@ impl Improve {
         outputs: Outputs<'_>,
         watch: &mut Watch<'_>,
     ) -> Result<(Vec<Run>, Improved), Failure> {
+        // A weight of prior over proposal would draw particles back to the prior, and the result is no sample anyway.
+        let proposal = proposal.map(|proposal| Arc::new(proposal.unweighed()));
         let improve = Improve { drawn_by: proposal, ..self.clone() };
         match improve.diverse {
             None => improve.single(task, seed, 0, outputs, watch).map(|(mut runs, info)| {
