@@ -63,7 +63,9 @@ def compare(name: str) -> None:
     assert entry is not None and entry.window is not None
     guide = guides.shipped(entry.model)
     methods: dict[str, nw.Method] = {
-        f"{'guided' if by else 'not guided'}, {count} particles": nw.smc(count, resampling="tempered", guide=by)
+        f"{'guided' if by else 'not guided'}, {count} particles": nw.smc(
+            count, resampling="tempered", guide=by
+        )
         for count, by in ((10, guide), (20, guide), (50, guide), (150, guide), (50, None), (600, None))
     } | {f"guided search, {rounds} rounds": nw.improve(rounds=rounds, guide=guide) for rounds in (3, 15)}
     for label, method in methods.items():

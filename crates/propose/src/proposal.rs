@@ -102,8 +102,8 @@ impl Proposal {
         self.parts.push((selection, Drawer::Guide(guide)));
     }
 
-    /// The same proposal, but its values count as if the prior had drawn them. Runs are then no weighted sample of any law: this is for
-    /// searches for the best.
+    /// Return the same proposal with values that count as if the prior had drawn them. Runs are then no weighted sample of any law: it is
+    /// for searches for the best.
     #[must_use]
     pub fn unweighed(&self) -> Proposal {
         Proposal { is_unweighed: true, ..self.clone() }

@@ -193,9 +193,7 @@ def test_what_is_refused(
             "rounds that are no numbers": refused(*train, pictures, "--searches", "many"),
             "an objective that is none": refused(*train, pictures, "--objective", "evidence"),
             "rounds without examples": refused(*train, pictures, "--objective", "bound", "--searches", "4"),
-            "a search that draws no choices by a guide": refused(
-                *GROW, "--method", "ais", "--guide", vines
-            ),
+            "a search that draws no choices by a guide": refused(*GROW, "--method", "ais", "--guide", vines),
             "a guide that has not learned to look ahead": refused(
                 *GROW, "--guide", vines, "--look-ahead", "0.2"
             ),

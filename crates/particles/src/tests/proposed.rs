@@ -316,7 +316,8 @@ fn an_unweighed_proposal_keeps_its_shares() {
     let share = |proposal: Proposal| {
         let settings = with(&Arc::new(proposal), Order::Stochastic, 4000);
         let particles = smc(&task, &settings, &mut |_| true).expect("a population").particles;
-        particles.iter().filter(|run| matches!(run.value, niwaki_vm::value::Value::Bool(true))).count() as f64 / 4000.0
+        particles.iter().filter(|run| matches!(run.value, niwaki_vm::value::Value::Bool(true))).count() as f64
+            / 4000.0
     };
     // Five standard errors.
     assert!((share(proposal.unweighed()) - 0.9).abs() < 0.024);
