@@ -61,14 +61,14 @@ def compare(name: str) -> None:
     """Print how well searches with a guide and without do on the drawings that judged, and what they cost."""
     entry = gallery.entry(name)
     assert entry is not None and entry.window is not None
-    for particles, guide in (
-        (10, guides.shipped(entry.model)),
-        (20, guides.shipped(entry.model)),
-        (50, guides.shipped(entry.model)),
-        (50, None),
-        (600, None),
-    ):
-        method = nw.methods.smc(particles, resampling="tempered", guide=guide)
+    guide = guides.shipped(entry.model)
+    methods: dict[str, nw.Method] = {
+        f"{'guided' if by else 'not guided'}, {count} particles": nw.smc(
+            count, resampling="tempered", guide=by
+        )
+        for count, by in ((10, guide), (20, guide), (50, guide), (150, guide), (50, None), (600, None))
+    } | {f"guided search, {rounds} rounds": nw.improve(rounds=rounds, guide=guide) for rounds in (3, 15)}
+    for label, method in methods.items():
         rows, began = [], time.process_time()
         for drawing in map(drawings.drawing, drawings.names("scribbles", "training")[:: guides.EVERY]):
             for seed in range(3):
@@ -76,8 +76,7 @@ def compare(name: str) -> None:
                 result = nw.run(entry.model, *place, method=method, score=score, seed=seed, threads=1)
                 rows.append(max(result, key=lambda sample: sample.log_joint).similarity)
         cost = 1000 * (time.process_time() - began) / len(rows)
-        label = "not guided" if guide is None else "guided"
-        print(f"{name}, {label}, {particles} particles: {sentence(summary(rows))}; {cost:.1f} ms of CPU")
+        print(f"{name}, {label}: {sentence(summary(rows))}; {cost:.1f} ms of CPU")
 
 
 def main(names: list[str]) -> None:

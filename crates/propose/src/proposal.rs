@@ -35,6 +35,9 @@ impl<C: Chooser> Chooser for ByProposal<'_, C> {
     fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
         match self.proposal.draw(at, dist, seen, self.sight, self.stream)? {
             None => self.fallback.choose(at, dist, seen),
+            Some(chosen) if self.proposal.is_unweighed => {
+                Ok(Some(Chosen { log_drawn: chosen.log_prior, ..chosen }))
+            }
             chosen => Ok(chosen),
         }
     }
@@ -73,6 +76,8 @@ enum Drawer {
 #[derive(Clone, Debug, Default)]
 pub struct Proposal {
     parts: Vec<(Selection, Drawer)>,
+    /// Whether weights leave its densities out, as in a search for the best.
+    is_unweighed: bool,
 }
 
 impl Proposal {
@@ -95,6 +100,13 @@ impl Proposal {
     /// Add a guide for the choices of a selection by patterns.
     pub fn add_guide(&mut self, selection: Selection, guide: Arc<BoundGuide>) {
         self.parts.push((selection, Drawer::Guide(guide)));
+    }
+
+    /// Return the same proposal with values that count as if the prior had drawn them. Runs are then no weighted sample of any law: it is
+    /// for searches for the best.
+    #[must_use]
+    pub fn unweighed(&self) -> Proposal {
+        Proposal { is_unweighed: true, ..self.clone() }
     }
 
     /// Check that each pattern can match a choice of the program.

@@ -499,7 +499,7 @@ impl PyTask {
                     result.attempts.iter().map(|attempt| (attempt.form, attempt.particles, attempt.died_at));
                 dict.set_item("attempts", PyTuple::new(py, attempts)?)?;
                 let rounds = result.rounds.iter();
-                let of = |round: &Round| (round.kind.name(), round.work, round.best, round.parts);
+                let of = |round: &Round| (round.step.name(), round.work, round.best, round.parts);
                 dict.set_item("rounds", PyTuple::new(py, rounds.clone().map(of))?)?;
                 dict.set_item("seconds", PyTuple::new(py, rounds.map(|round| round.time.as_secs_f64()))?)?;
                 dict.set_item("searches", result.searches)?;

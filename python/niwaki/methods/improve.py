@@ -69,7 +69,8 @@ class Improve(Method):
         population.
     proposal, guide
         The proposal and the guide that draw choices in place of the prior, in populations and in parts that are grown
-        again, as for `importance`.
+        again, as for `importance`. No weight of prior over proposal corrects their draws: the best run counts by its
+        score alone.
     """
 
     NAME = "improve"

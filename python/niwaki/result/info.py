@@ -301,7 +301,7 @@ class Round(NamedTuple):
 
     Attributes
     ----------
-    kind : str
+    step : str
         The kind of step: "population", "restart", "regrow", "regrow more" or "move".
     work : int
         The number of particle-steps, of proposals, and of shapes that proposals placed or removed.
@@ -311,7 +311,7 @@ class Round(NamedTuple):
         The number of parts that were grown again and accepted.
     """
 
-    kind: str
+    step: str
     work: int
     best: float
     parts: int
@@ -393,8 +393,8 @@ class ImproveInfo(Info):
     def spent(self) -> dict[str, int]:
         """The work by kind of step, in instructions of a processor as `price` estimates them; the largest first."""
         work: dict[str, int] = {}
-        for step in self.rounds:
-            work[step.kind] = work.get(step.kind, 0) + step.work * self.price
+        for each in self.rounds:
+            work[each.step] = work.get(each.step, 0) + each.work * self.price
         return dict(sorted(work.items(), key=lambda item: -item[1]))
 
     @property
@@ -410,7 +410,7 @@ class ImproveInfo(Info):
     @property
     def restarts(self) -> int:
         """The number of fresh populations from which the search went on."""
-        return sum(step.kind == "restart" for step in self.rounds)
+        return sum(each.step == "restart" for each in self.rounds)
 
     def __str__(self) -> str:
         """The steps of the search, with the seconds and the best log score after them."""
@@ -424,9 +424,9 @@ class ImproveInfo(Info):
         if len(self.rounds) > 1:
             later = self.rounds[1:]
             parts, moves, more = (
-                sum(step.parts for step in later),
-                any(step.kind == "move" for step in later),
-                sum(step.kind == "population" for step in later),
+                sum(each.parts for each in later),
+                any(each.step == "move" for each in later),
+                sum(each.step == "population" for each in later),
             )
             kinds = [f"{parts} part{'' if parts == 1 else 's'} grown again"]
             kinds += [f"{more} more population{'' if more == 1 else 's'}"] * (more > 0)

@@ -158,9 +158,8 @@ def grow(
     args, kwargs
         The model's arguments. `rounds`, `seconds`, `effort`, `diverse`, `by`, `margin`, `bins` and `guide` are settings
         of the default search. With any other setting of `smc` (particles, order, power, ...) the search is one
-        population by these settings, with a default `power` of 16 for ratio weights (1 for drawings). With a `guide`
-        and no other setting of the default search it is one population, too, by default of 50 particles with tempered
-        resampling.
+        population by these settings, with a default `power` of 16 for ratio weights (1 for drawings); with a `guide`
+        its defaults are 50 particles and tempered resampling.
     score
         Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`. They multiply
         `no_self_intersection(rule)` and, if there is a target, `match_volume(target, voxel, sigma, weight)`. Drawings
@@ -327,7 +326,7 @@ def default_method(settings: Mapping[str, Any], power: float = POWER) -> Method:
     power
         The default power of a population with ratio weights.
     """
-    if set(settings) <= set(OF_IMPROVE) and set(settings) != {"guide"}:
+    if set(settings) <= set(OF_IMPROVE):
         return Improve(**settings)
     if "rounds" in settings:
         extras = ", ".join(f"`{name}`" for name in settings if name not in OF_IMPROVE)

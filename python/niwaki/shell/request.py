@@ -11,6 +11,7 @@ import typer
 from niwaki import Search, gallery, search, targets
 from niwaki.errors import InputError
 from niwaki.errors.settings import MAX_MEMORY, MAX_STEPS
+from niwaki.methods import Improve
 from niwaki.shell import settings
 from niwaki.shell.app import Megabytes, Runs, Seed
 from niwaki.shell.references import ModelReference
@@ -68,7 +69,10 @@ def search_of(
     sketches, name = [spec.name for spec in score.specs], flags.method
     guide = settings.guide(flags.guide, reference, sketches, name, dict(method_settings))
     if guide is not None:
-        defaults, name = {**defaults, **search.GUIDED}, name or "smc"
+        name = name or settings.guided_method(dict(method_settings))
+        # The settings of a model without a guide are for one population.
+        usual = {"particles": gallery.PARTICLES}
+        defaults = usual if name == Improve.NAME else {**defaults, **search.GUIDED}
     if "(emit " not in reference.model.core().text:
         raise InputError("no-emit", name=reference.model.name)
     built = search.grow_search(

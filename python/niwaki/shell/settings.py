@@ -279,8 +279,7 @@ def guide(
     if file is not None:
         return Guide.load(file)
     options = typed(settings)
-    one_population = name == "smc" or (name is None and not set(options) & {*search.OF_IMPROVE, "regrow"})
-    if shipped is None or not one_population or options.get("weights") == "absolute":
+    if shipped is None or name not in (None, "smc", "improve") or options.get("weights") == "absolute":
         return None
     windows = {window for window, _ in shipped.form["windows"]}
     # In space the usual search does well without a guide, so a guide is used only by name.
@@ -292,11 +291,22 @@ def guide(
     return shipped
 
 
+def guided_method(settings: dict[str, Any]) -> str:
+    """Return the name of the method that `niwaki.grow` uses with a guide and these settings."""
+    of_search = set(typed(settings)) <= {*search.OF_IMPROVE, "regrow"}
+    return Improve.NAME if of_search else Smc.NAME
+
+
 def guided(method: Method, guide: Guide | None, settings: Mapping[str, Any]) -> Method:
     """Return the method with a guide and its setting of `--look-ahead`."""
     ahead = settings.get("look_ahead")
     if guide is None and ahead is None:
         return method
+    if isinstance(method, Improve) and ahead is None:
+        return replace(method, guide=guide)
+    if isinstance(method, Improve):
+        reason = f"`--method {method.NAME}` has no weights that could look ahead"
+        raise InputError("flag-alone", flag="--look-ahead", other="`--method smc`", reason=reason)
     if not isinstance(method, Smc | ParticleGibbs | Pimh):
         reason = f"`--method {method.NAME}` draws no choices by a guide"
         raise InputError("flag-alone", flag="--guide", other="`--method smc`", reason=reason)

@@ -10,6 +10,7 @@ from niwaki.errors import NiwakiError
 from niwaki.gallery import entry
 from niwaki.search import SearchWarning
 from niwaki.targets.examples.lofts import block, solid
+from niwaki.words import Beta
 
 
 @nw.model
@@ -28,6 +29,15 @@ def within():
     return infer(coins, nw.improve(), 1)
 
 
+@nw.model
+def needle():
+    """A number that only a proposal draws, scored after a barrier."""
+    x = uniform(0.0, 1.0)
+    factor(0.0)
+    factor(9.0 if x < 1e-6 else 0.0)
+    return x
+
+
 def grown(seed: int = 4, **settings):
     """A ship, with few particles."""
     ship = entry("spaceship")
@@ -41,15 +51,23 @@ def grown(seed: int = 4, **settings):
 def test_the_best_never_falls_and_is_the_result() -> None:
     result = grown()
     rounds = result.info.rounds
-    assert [rounds[0].kind, len(rounds), len(result)] == ["population", 13, 1]
+    assert [rounds[0].step, len(rounds), len(result)] == ["population", 13, 1]
     bests = [line.best for line in rounds]
     assert bests == sorted(bests)
     assert bests[-1] > bests[0] + 1.0
     assert result.best.log_score == bests[-1]
     assert all(line.work > 0 for line in rounds)
-    assert {line.kind for line in rounds} == {"population", "regrow", "regrow more", "move"}
+    assert {line.step for line in rounds} == {"population", "regrow", "regrow more", "move"}
     trace = result.best._trace.run
     assert (trace.log_score, trace.primitives) == (result.best.log_score, result.best.primitives)
+
+
+def test_proposals_are_not_weighed() -> None:
+    """Weights of prior over proposal would remove the small numbers at the first barrier."""
+    near_zero = nw.kernels.proposal(lambda: Beta(0.1, 1.0))
+    for seed in range(4):
+        result = nw.run(needle, method=nw.improve(20, 4, rounds=1, proposal=near_zero), seed=seed)
+        assert result.best.log_score == 9.0
 
 
 def test_a_seed_and_a_number_of_rounds_give_the_same_bits_on_any_number_of_threads() -> None:

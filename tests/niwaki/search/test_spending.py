@@ -150,5 +150,5 @@ def test_a_stored_search_without_effort_has_fifteen_rounds() -> None:
 
 def test_the_bill_has_the_work_by_kind_of_step() -> None:
     info = climbed(rounds=6).info
-    assert set(info.spent) == {step.kind for step in info.rounds}
+    assert set(info.spent) == {each.step for each in info.rounds}
     assert "in 6 rounds: " in info.bill and "restart" not in info.bill

@@ -106,7 +106,7 @@ def test_grow_takes_the_guide_that_comes_with_the_model(tmp_path: Path) -> None:
     grown = run(*GROW, "-o", tmp_path)
     assert grown.exit_code == 0 and grown.stderr == NOTICE
     method = searched(tmp_path)
-    assert (method["method"], method["particles"], method["resampling"]) == ("smc", 50, "tempered")
+    assert (method["method"], method["particles"], method["power"]) == ("improve", 100, 16.0)
     assert "guided" in json.dumps(method["proposal"])
     again = run("replay", tmp_path / "run.json", "-o", tmp_path / "again", "--no-picture")
     assert again.exit_code == 0
@@ -119,7 +119,8 @@ def test_grow_takes_the_guide_that_comes_with_the_model(tmp_path: Path) -> None:
         (["--particles", "12"], True, "smc", 12),
         (["--method", "smc"], True, "smc", 50),
         (["--guide", "none", "--particles", "12"], False, "smc", 12),
-        (["--rounds", "1"], False, "improve", 200),
+        (["--rounds", "1"], True, "improve", 100),
+        (["--guide", "none", "--rounds", "1"], False, "improve", 200),
         (["--weights", "absolute", "--particles", "12", "--resampling", "systematic"], False, "smc", 12),
         (["--method", "pimh", "--sweeps", "2", "--particles", "12"], False, "pimh", 12),
         (["--method", "pimh", "--sweeps", "2", "--guide", FOLDER / "vines.guide"], False, "pimh", 50),
@@ -192,9 +193,7 @@ def test_what_is_refused(
             "rounds that are no numbers": refused(*train, pictures, "--searches", "many"),
             "an objective that is none": refused(*train, pictures, "--objective", "evidence"),
             "rounds without examples": refused(*train, pictures, "--objective", "bound", "--searches", "4"),
-            "a search that draws no choices by a guide": refused(
-                *GROW, "--method", "improve", "--guide", vines
-            ),
+            "a search that draws no choices by a guide": refused(*GROW, "--method", "ais", "--guide", vines),
             "a guide that has not learned to look ahead": refused(
                 *GROW, "--guide", vines, "--look-ahead", "0.2"
             ),

@@ -307,3 +307,19 @@ fn a_draw_outside_of_the_prior_is_impossible() {
     let settings = with(&Arc::new(far), Order::DepthFirst, 20);
     assert_eq!(causes(smc(&task, &settings, &mut |_| true).err().unwrap()), [(message, 20)]);
 }
+
+/// A proposal that is not weighed: particles keep the shares with which it draws, where weights would give them those of the prior.
+#[test]
+fn an_unweighed_proposal_keeps_its_shares() {
+    let text = r#"(module (fn "m" (params) (set $a (sample (dist bernoulli 0.5))) (do (factor 0.0)) (return $a)) (entry "m"))"#;
+    let (task, proposal) = guided(text, &[("a", "(params) (return (dist bernoulli 0.9))")]);
+    let share = |proposal: Proposal| {
+        let settings = with(&Arc::new(proposal), Order::Stochastic, 4000);
+        let particles = smc(&task, &settings, &mut |_| true).expect("a population").particles;
+        particles.iter().filter(|run| matches!(run.value, niwaki_vm::value::Value::Bool(true))).count() as f64
+            / 4000.0
+    };
+    // Five standard errors.
+    assert!((share(proposal.unweighed()) - 0.9).abs() < 0.024);
+    assert!((share(proposal) - 0.5).abs() < 0.067);
+}

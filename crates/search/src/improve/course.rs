@@ -4,8 +4,9 @@
 //! decided by counts of work alone, and not by how it will end. So a search that ended by time, or by itself, is repeated by its
 //! number of rounds.
 
+use super::arms::Step;
 use super::price::{self, FLOOR};
-use super::rounds::{self, Kind, Round, Search};
+use super::rounds::{self, Round, Search};
 use super::start::number_of;
 use super::{Improve, Improved, part_seed, population_seed};
 use niwaki_particles::{Progress, Result as Population};
@@ -185,10 +186,10 @@ impl<'a> Course<'a> {
     pub fn round(&mut self, may_continue: &mut dyn FnMut(f64) -> bool) -> Result<Round, Failure> {
         let earlier = self.earlier.first().map_or(f64::NEG_INFINITY, |run| run.log_score);
         let before = self.search.best.log_score;
-        let (kind, work, parts) = if self.is_still() {
+        let (step, work, parts) = if self.is_still() {
             let (work, has_lived) = self.restart(may_continue)?;
             self.work = Work { since: if has_lived { 0 } else { self.work.since }, idle: 0, ..self.work };
-            (Kind::Restart, work, 0)
+            (Step::RESTART, work, 0)
         } else {
             let round = self.search.round(self.number, &mut |best| may_continue(best.max(earlier)))?;
             let has_gained = self.search.best.log_score - before >= LEAST_GAIN;
@@ -198,7 +199,7 @@ impl<'a> Course<'a> {
         self.number += 1;
         self.work.total += work;
         self.work.since += work;
-        Ok(Round { kind, work, parts, best: self.best(), time: std::time::Duration::ZERO })
+        Ok(Round { step, work, parts, best: self.best(), time: std::time::Duration::ZERO })
     }
 
     /// Goes on from a fresh population. Returns its work, and false if no particle lived or it was stopped.

@@ -2,9 +2,8 @@
 //! evidence and no weights.
 //!
 //! 1. *Begin* (`start`): populations of particles, until one has a possible run. Its cost is the unit of effort.
-//! 2. *Rounds* (`rounds`) of a fifth of that unit. Each makes steps of one kind from the best run, and the kinds share the
-//!    rounds by their latest gains. The kinds are: parts grown again by few or by many particles, moves of single choices, and a
-//!    new population.
+//! 2. *Rounds* (`rounds`) of a fifth of that unit. Each makes steps of one arm from the best run, and the arms (`arms`) share the
+//!    rounds by their latest gains: parts grown again by few or by many particles, moves of single choices, and a new population.
 //! 3. *Restarts* (`course`): where no round has gained for long, the next begins from a fresh population. The best of all is kept.
 //! 4. *End* after the given number of rounds; or when the time is over; or, without both, when the search has spent a floor of work
 //!    and no round has gained for long. A search also ends where nothing can be better.
@@ -18,6 +17,7 @@
 //! Several different results are the best of several kinds, from an archive (`archive`).
 
 mod archive;
+mod arms;
 mod choose;
 mod course;
 mod look;
@@ -28,7 +28,8 @@ mod start;
 mod stored;
 mod structure;
 
-pub use rounds::{Kind, Round};
+pub use arms::Step;
+pub use rounds::Round;
 
 use course::Course;
 use niche::By;
@@ -138,7 +139,7 @@ impl Improve {
     }
 
     /// Searches for the best run, or for several different runs, best first. If there is a `proposal`, populations and parts that are
-    /// grown again draw their choices from it. `watch` is called with the number of rounds and the best log score, after the best run
+    /// grown again draw their choices from it, and no weight corrects its draws. `watch` is called with the number of rounds and the best log score, after the best run
     /// is `shown`; when it returns false, the search ends with its best so far. Each search is a part of the `checkpoint`.
     ///
     /// # Errors
@@ -151,6 +152,8 @@ impl Improve {
         outputs: Outputs<'_>,
         watch: &mut Watch<'_>,
     ) -> Result<(Vec<Run>, Improved), Failure> {
+        // A weight of prior over proposal would draw particles back to the prior, and the result is no sample anyway.
+        let proposal = proposal.map(|proposal| Arc::new(proposal.unweighed()));
         let improve = Improve { drawn_by: proposal, ..self.clone() };
         match improve.diverse {
             None => improve.single(task, seed, 0, outputs, watch).map(|(mut runs, info)| {
@@ -203,8 +206,8 @@ impl Improve {
                 let work = first.steps;
                 let course = Course::begin(self, task, seed, &info, first)?;
                 info.price = course.price;
-                let (kind, best, time) = (Kind::Population, course.best(), elapsed());
-                info.rounds.push(Round { kind, work, parts: 0, best, time });
+                let (step, best, time) = (arms::POPULATION.step, course.best(), elapsed());
+                info.rounds.push(Round { step, work, parts: 0, best, time });
                 (course, info)
             }
         };

@@ -1,7 +1,9 @@
-//! The rounds of a search. Each makes steps of one kind from the best run, and the kinds share the rounds by their gains.
+//! The rounds of a search. Each makes steps of one arm from the best run, and the arms share the rounds by their gains.
 
+use super::arms::{self, Arm, Form, POPULATION, Step};
 use super::{Improve, population_seed};
 use niwaki_chain::kernel::Kernel;
+use niwaki_chain::leaf::Proposer;
 use niwaki_chain::plan::Plan;
 use niwaki_chain::stored::StoredState;
 use niwaki_chain::walk::state::State;
@@ -16,59 +18,22 @@ use niwaki_run::run::Run;
 use niwaki_run::streams::Reserved;
 use niwaki_run::weights::index;
 use niwaki_run::{Failure, Task};
-use niwaki_vm::fault::Fault;
 use serde::{Deserialize, Serialize};
-use serde_json::json;
 use std::collections::HashMap;
 use std::time::Duration;
 
 /// Number of rounds that together cost as much as the first population.
 pub(super) const PER_POPULATION: u64 = 5;
-/// The share of a kind's gain that is forgotten with each of its rounds.
+/// The share of an arm's gain that is forgotten with each of its rounds.
 const FORGOTTEN: f64 = 0.5;
-/// The share of the rounds for the kind with the least work so far.
+/// The share of the rounds for the arm with the least work so far.
 const EVEN: f64 = 0.25;
-/// The probability that a discrete choice of a part turns when the part is grown again.
-const TURN: f64 = 0.7;
-/// Factor of the number of particles that grow a part again in rounds of "regrow more".
-const MORE: usize = 5;
-
-/// A kind of step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Kind {
-    /// A population from the start.
-    Population,
-    /// A population from the start, from whose best run the next rounds go on.
-    Restart,
-    /// Parts grown again by few particles.
-    Regrow,
-    /// Parts grown again by five times as many particles.
-    RegrowMore,
-    /// Moves of single choices, and calls drawn anew.
-    Move,
-}
-
-impl Kind {
-    /// The kinds that share the rounds. A restart is no step from the best run.
-    const ALL: [Kind; 4] = [Kind::Regrow, Kind::Move, Kind::RegrowMore, Kind::Population];
-
-    /// The name in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Kind::Population => "population",
-            Kind::Restart => "restart",
-            Kind::Regrow => "regrow",
-            Kind::RegrowMore => "regrow more",
-            Kind::Move => "move",
-        }
-    }
-}
 
 /// The report of a round.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Round {
     /// The kind of step.
-    pub kind: Kind,
+    pub step: Step,
     /// The work of the round.
     pub work: u64,
     /// The number of parts that were grown again and kept.
@@ -87,15 +52,45 @@ pub(super) struct Stored<R> {
     state: StoredState,
     slice: u64,
     populations: u64,
-    gains: [Option<u64>; Kind::ALL.len()],
-    spent: [u64; Kind::ALL.len()],
+    learnt: Learnt,
 }
 
-/// The gains that a search has learnt, for a search that goes on elsewhere.
+/// What a search has learnt of its arms, for a search that goes on elsewhere: of each its step, the bits of its latest gain and its
+/// work.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(super) struct Learnt {
-    gains: [Option<u64>; Kind::ALL.len()],
-    spent: [u64; Kind::ALL.len()],
+pub(super) struct Learnt(Vec<(Step, Option<u64>, u64)>);
+
+/// An arm, and what its rounds have shown.
+struct Tally {
+    arm: &'static Arm,
+    /// The latest gain, nats for the work of a round; `None` before its first round.
+    gain: Option<f64>,
+    /// The work so far.
+    spent: u64,
+}
+
+/// The tallies of the arms of a task, before their first rounds.
+fn tallies(improve: &Improve, task: &Task) -> Vec<Tally> {
+    let tally = |arm| Tally { arm, gain: None, spent: 0 };
+    arms::suitable(improve, task).into_iter().map(tally).collect()
+}
+
+/// Notes a population that another has made: so much work, and no gain.
+fn note_population(tallies: &mut [Tally], spent: u64) {
+    let population = tallies.iter_mut().find(|tally| tally.arm.step == POPULATION.step);
+    population.into_iter().for_each(|tally| (tally.gain, tally.spent) = (Some(0.0), spent));
+}
+
+impl Learnt {
+    /// Gives it to the arms of a search.
+    fn give(&self, tallies: &mut [Tally]) {
+        for (step, gain, spent) in &self.0 {
+            let tally = tallies.iter_mut().find(|tally| tally.arm.step == *step);
+            tally
+                .into_iter()
+                .for_each(|tally| (tally.gain, tally.spent) = (gain.map(f64::from_bits), *spent));
+        }
+    }
 }
 
 /// The search while it runs.
@@ -112,10 +107,8 @@ pub(super) struct Search<'a> {
     state: Option<State>,
     /// Number of populations so far.
     populations: u64,
-    /// Latest gain of each kind, nats for the work of a round.
-    gains: [Option<f64>; Kind::ALL.len()],
-    /// Work of each kind so far.
-    spent: [u64; Kind::ALL.len()],
+    /// The arms that suit the task.
+    tallies: Vec<Tally>,
 }
 
 impl<'a> Search<'a> {
@@ -137,11 +130,10 @@ impl<'a> Search<'a> {
         };
         let slice = (unit / PER_POPULATION).max(1);
         let spreads = HashMap::new();
-        let (mut gains, mut spent) = ([None; Kind::ALL.len()], [0; Kind::ALL.len()]);
+        let mut tallies = tallies(improve, task);
         // The first population has shown the gain of populations.
-        let population = Kind::ALL.len() - 1;
-        (gains[population], spent[population]) = (Some(0.0), unit);
-        Ok(Search { task, improve, seed, slice, spreads, best, state, populations, gains, spent })
+        note_population(&mut tallies, unit);
+        Ok(Search { task, improve, seed, slice, spreads, best, state, populations, tallies })
     }
 
     /// A search from a run and a chain's state at it, with rounds of this work, and with what another search has learnt.
@@ -154,19 +146,17 @@ impl<'a> Search<'a> {
         learnt: Option<Learnt>,
         spreads: HashMap<u128, f64>,
     ) -> Search<'a> {
-        let (mut gains, mut spent) = ([None; Kind::ALL.len()], [0; Kind::ALL.len()]);
+        let mut tallies = tallies(improve, task);
         // Whoever starts such a search makes populations elsewhere.
-        let population = Kind::ALL.len() - 1;
-        (gains[population], spent[population]) = (Some(0.0), slice * PER_POPULATION);
-        if let Some(learnt) = learnt {
-            (gains, spent) = (learnt.gains.map(|gain| gain.map(f64::from_bits)), learnt.spent);
-        }
-        Search { task, improve, seed, slice, spreads, best, state: Some(state), populations: 1, gains, spent }
+        note_population(&mut tallies, slice * PER_POPULATION);
+        learnt.inspect(|learnt| learnt.give(&mut tallies));
+        Search { task, improve, seed, slice, spreads, best, state: Some(state), populations: 1, tallies }
     }
 
     /// The gains that the search has learnt.
     pub fn learnt(&self) -> Learnt {
-        Learnt { gains: self.gains.map(|gain| gain.map(f64::to_bits)), spent: self.spent }
+        let of = |tally: &Tally| (tally.arm.step, tally.gain.map(f64::to_bits), tally.spent);
+        Learnt(self.tallies.iter().map(of).collect())
     }
 
     /// The search as data, between two rounds; `None` if it was stopped before its first round.
@@ -176,8 +166,7 @@ impl<'a> Search<'a> {
             state: StoredState::of(self.state.as_ref()?, &self.task.program),
             slice: self.slice,
             populations: self.populations,
-            gains: self.gains.map(|gain| gain.map(f64::to_bits)),
-            spent: self.spent,
+            learnt: self.learnt(),
         })
     }
 
@@ -191,66 +180,58 @@ impl<'a> Search<'a> {
         seed: u64,
         stored: Stored<Run>,
     ) -> std::result::Result<Search<'a>, Failure> {
-        let Stored { best, state, slice, populations, gains, spent } = stored;
+        let Stored { best, state, slice, populations, learnt } = stored;
         let state = Some(state.state(task)?);
-        let best = with_value(task, best)?;
-        let gains = gains.map(|gain| gain.map(f64::from_bits));
-        Ok(Search {
-            task,
-            improve,
-            seed,
-            slice,
-            spreads: HashMap::new(),
-            best,
-            state,
-            populations,
-            gains,
-            spent,
-        })
+        let (best, spreads) = (with_value(task, best)?, HashMap::new());
+        let mut tallies = tallies(improve, task);
+        learnt.give(&mut tallies);
+        Ok(Search { task, improve, seed, slice, spreads, best, state, populations, tallies })
     }
 
-    /// Makes a round; all rounds have about equal work. Returns its kind, its work, and how many parts were grown again and kept.
+    /// Makes a round; all rounds have about equal work. Returns its kind of step, its work, and how many parts were grown again and kept.
     /// `may_continue` is called with the best log score, and ends the round when it returns false.
     pub fn round(
         &mut self,
         number: u64,
         may_continue: &mut dyn FnMut(f64) -> bool,
-    ) -> std::result::Result<(Kind, u64, u64), Failure> {
+    ) -> std::result::Result<(Step, u64, u64), Failure> {
         let index = self.pick(&mut Reserved::Improve.stream(self.seed, u128::from(number), 0));
-        let (kind, before) = (Kind::ALL[index], self.best.log_score);
-        let (work, parts) = match kind {
-            Kind::Population => (self.population(may_continue)?, 0),
-            _ => self.step(kind, number, may_continue)?,
+        let (arm, before) = (self.tallies[index].arm, self.best.log_score);
+        let (work, parts) = match arm.form {
+            Form::Population(settings) => (self.population(settings(self.improve), may_continue)?, 0),
+            Form::Chain(kernel, steps) => self.step(&kernel(self.improve)?, steps, number, may_continue)?,
         };
         let rate = (self.best.log_score - before).max(0.0) * self.slice as f64 / work.max(1) as f64;
         let mixed = |old: f64| FORGOTTEN * old + (1.0 - FORGOTTEN) * rate;
-        self.gains[index] = Some(self.gains[index].map_or(rate, mixed));
-        self.spent[index] += work;
-        Ok((kind, work, parts))
+        let tally = &mut self.tallies[index];
+        tally.gain = Some(tally.gain.map_or(rate, mixed));
+        tally.spent += work;
+        Ok((arm.step, work, parts))
     }
 
-    /// The index of the next kind of step: first each kind once, then by their latest gains.
+    /// The index of the next arm: first each once, then by their latest gains.
     fn pick(&self, rng: &mut Stream) -> usize {
-        if let Some(new) = self.gains.iter().position(Option::is_none) {
+        if let Some(new) = self.tallies.iter().position(|tally| tally.gain.is_none()) {
             return new;
         }
-        let gains: Vec<f64> = self.gains.iter().copied().flatten().collect();
+        let gains: Vec<f64> = self.tallies.iter().filter_map(|tally| tally.gain).collect();
         let u = rng.uniform();
         if gains.iter().all(|gain| *gain <= 0.0) || u < EVEN {
-            let least = (0..gains.len()).min_by_key(|index| self.spent[*index]);
+            let least = (0..gains.len()).min_by_key(|index| self.tallies[*index].spent);
             return least.unwrap_or(0);
         }
         index(&gains, (u - EVEN) / (1.0 - EVEN))
     }
 
-    /// Makes another population. Returns its work.
-    fn population(&mut self, may_continue: &mut dyn FnMut(f64) -> bool) -> std::result::Result<u64, Failure> {
+    /// Makes another population, with a seed of its own. Returns its work.
+    fn population(
+        &mut self,
+        settings: Settings,
+        may_continue: &mut dyn FnMut(f64) -> bool,
+    ) -> std::result::Result<u64, Failure> {
         let (so_far, number) = (self.best.log_score, self.populations);
         self.populations += 1;
-        let seed = population_seed(self.seed, number);
-        let (particles, power) = (self.improve.particles, self.improve.power);
-        let proposal = self.improve.drawn_by.clone();
-        let settings = Settings { particles, seed, power, proposal, ..Settings::default() };
+        let settings = Settings { seed: population_seed(self.seed, number), ..settings };
         match smc(self.task, &settings, &mut |_| may_continue(so_far)) {
             Ok(result) => {
                 let work = result.steps;
@@ -267,16 +248,19 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Makes steps of a chain from the present run. Returns their work and how many parts were grown again and kept.
+    /// Makes steps of a chain from the present run, `steps` between two looks at its work. Returns their work and how many parts were
+    /// grown again and kept.
     fn step(
         &mut self,
-        kind: Kind,
+        kernel: &Kernel,
+        steps: u64,
         number: u64,
         may_continue: &mut dyn FnMut(f64) -> bool,
     ) -> std::result::Result<(u64, u64), Failure> {
         let settings = ChainSettings { seed: self.seed, thin: 0, ..ChainSettings::default() };
-        let plan = Plan::new(&self.kernel(kind)?)?;
-        if kind == Kind::Move && self.spreads.is_empty() {
+        let plan = Plan::new(kernel)?;
+        let drifts = kernel.any(&|kernel| matches!(kernel, Kernel::Leaf(Proposer::Drift(_))));
+        if drifts && self.spreads.is_empty() {
             self.spreads = spreads(self.task, self.seed)?;
         }
         let Some(state) = self.state.take() else { return Ok((self.slice, 0)) };
@@ -284,7 +268,6 @@ impl<'a> Search<'a> {
         chain.restrict(self.improve.power, None);
         let (so_far, before) = (self.best.log_score, chain.work());
         if !chain.state.trace.is_empty() {
-            let steps = if kind == Kind::Move { 32 } else { 1 };
             while chain.work() < before + self.slice && may_continue(so_far.max(chain.best.score())) {
                 chain.advance(self.task, steps, &mut |_, _| true)?;
             }
@@ -295,34 +278,6 @@ impl<'a> Search<'a> {
         let (work, parts) = (chain.work() - before, chain.counts.many.accepted);
         self.state = Some(chain.into_state());
         Ok((work, parts))
-    }
-
-    /// The kernel of a kind of step.
-    fn kernel(&self, kind: Kind) -> std::result::Result<Kernel, Fault> {
-        let leaf = |name, settings| {
-            Kernel::leaf(name, settings).map_err(|error| Fault::new("bad-kernel", error.to_string()))
-        };
-        let regrow = |particles| {
-            let settings = json!({"particles": particles, "turn": TURN, "pick": "size", "best": true});
-            let plain = leaf("regrow", settings)?;
-            Ok(match &self.improve.drawn_by {
-                None => plain,
-                Some(proposal) => plain.drawn_by(proposal.clone()),
-            })
-        };
-        let drift = |step| leaf("drift", json!({"step": step, "target": 0.44}));
-        // The parts of a run share calls of memoised functions, so no part can be grown again.
-        let shared = self.task.program.memoises();
-        match kind {
-            Kind::Regrow if !shared => regrow(self.improve.regrow),
-            Kind::RegrowMore if !shared => regrow(MORE * self.improve.regrow),
-            _ => Ok(Kernel::Mixture(vec![
-                (4.0, Kernel::PRIOR),
-                (4.0, drift(0.3)?),
-                (2.0, drift(0.05)?),
-                (1.0, leaf("regenerate", json!({"levels": 0}))?),
-            ])),
-        }
     }
 }
 

@@ -108,7 +108,7 @@ fn improved(task: &Task, left: HashMap<u64, String>, looks: u64) -> (Option<Stri
     let (result, stored) = stopped(task, method, left, looks);
     let Info::Improved(info) = result.info else { panic!("of improve") };
     let rounds: Vec<_> =
-        info.rounds.iter().map(|round| (round.kind, round.work, round.parts, round.best)).collect();
+        info.rounds.iter().map(|round| (round.step, round.work, round.parts, round.best)).collect();
     let report = format!("{rounds:?} {:?} {:?}", result.runs[0].log, result.runs[0].value);
     ((!result.interrupted).then_some(report), stored)
 }

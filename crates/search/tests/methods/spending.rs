@@ -6,7 +6,7 @@ use super::stopped::stopped;
 use niwaki_geom::{Aabb, no_overshoot, vec3};
 use niwaki_run::Task;
 use niwaki_run::task::Hosts;
-use niwaki_search::improve::{Improved, Kind};
+use niwaki_search::improve::{Improved, Step};
 use niwaki_search::method::Info;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::fault::Fault;
@@ -71,12 +71,12 @@ fn whole(task: &Task, limit: &str) -> (Improved, String) {
     (info, best)
 }
 
-fn rounds(info: &Improved) -> Vec<(Kind, u64, u64, u64)> {
-    info.rounds.iter().map(|round| (round.kind, round.work, round.parts, round.best.to_bits())).collect()
+fn rounds(info: &Improved) -> Vec<(Step, u64, u64, u64)> {
+    info.rounds.iter().map(|round| (round.step, round.work, round.parts, round.best.to_bits())).collect()
 }
 
 fn restarts(info: &Improved) -> usize {
-    info.rounds.iter().filter(|round| round.kind == Kind::Restart).count()
+    info.rounds.iter().filter(|round| round.step == Step::RESTART).count()
 }
 
 /// The first number of rounds after which a search without restarts has spent its floor and stands still.

@@ -1,0 +1,70 @@
+//! The arms of a search: the kinds of step among which it shares its rounds.
+//!
+//! An arm is a constant in a file here, with its name in reports, the tasks that it suits, and the form of its steps. A new one is
+//! such a file and a row of [`ARMS`].
+
+mod moves;
+mod population;
+mod regrow;
+
+use super::Improve;
+use niwaki_chain::kernel::Kernel;
+use niwaki_particles::Settings;
+use niwaki_run::Task;
+use niwaki_vm::fault::Fault;
+use serde::{Deserialize, Deserializer, Serialize};
+
+pub(super) use population::POPULATION;
+
+/// All arms. Each that suits the task has the next of the first rounds, in this order.
+const ARMS: [&Arm; 4] = [&regrow::FEW, &moves::MOVES, &regrow::MANY, &population::POPULATION];
+
+/// An arm.
+pub(super) struct Arm {
+    /// The name in reports.
+    pub step: Step,
+    /// Whether it suits a task.
+    pub suits: fn(&Improve, &Task) -> bool,
+    /// The form of its steps.
+    pub form: Form,
+}
+
+/// The form of the steps of an arm. The seed of a population, and the work of a round, are given by the search.
+pub(super) enum Form {
+    /// A population from the start.
+    Population(fn(&Improve) -> Settings),
+    /// A chain from the best run: its kernel, and the number of proposals between two looks at its work.
+    Chain(fn(&Improve) -> Result<Kernel, Fault>, u64),
+}
+
+/// A kind of step, by its name in reports.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Step(&'static str);
+
+impl Step {
+    /// A population from the start, from whose best run the next rounds go on.
+    pub const RESTART: Step = Step("restart");
+
+    /// The name in reports.
+    pub fn name(self) -> &'static str {
+        self.0
+    }
+}
+
+impl<'de> Deserialize<'de> for Step {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Step, D::Error> {
+        let name = String::deserialize(from)?;
+        let mut all = ARMS.iter().map(|arm| arm.step).chain([Step::RESTART]);
+        all.find(|step| step.0 == name).ok_or_else(|| serde::de::Error::custom(format!("no step {name:?}")))
+    }
+}
+
+/// The arms that suit a task.
+pub(super) fn suitable(improve: &Improve, task: &Task) -> Vec<&'static Arm> {
+    ARMS.into_iter().filter(|arm| (arm.suits)(improve, task)).collect()
+}
+
+/// A leaf of a kernel from its settings.
+fn leaf(name: &str, settings: serde_json::Value) -> Result<Kernel, Fault> {
+    Kernel::leaf(name, settings).map_err(|error| Fault::new("bad-kernel", error.to_string()))
+}
