@@ -174,8 +174,11 @@ def _patches(search: Repairing, place: Path, text: str, runs: _Runs, most: int) 
     rows = list(search.rows.values())
     out: list[Patch] = []
     known: set[frozenset[str]] = set()
-    for trial in sorted(search.trials, key=lambda trial: (trial.cost, trial.number)):
-        if not trial.values or trial.cost >= search.base.cost or frozenset(trial.values) in known:
+    for trial in sorted(search.trials, key=lambda trial: (bool(trial.violations), trial.cost, trial.number)):
+        if not trial.values or trial.cost >= search.base.cost:
+            continue
+        # More literals than another patch needs are no patch of their own.
+        if any(answer <= trial.values.keys() for answer in known):
             continue
         if trial.violations and (out or trial.violated >= search.base.violated):
             continue

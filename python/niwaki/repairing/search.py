@@ -444,7 +444,7 @@ class Repairing:
         for plan in sorted(plans, key=lambda plan: plan.cost):
             if plan.cost >= limit:
                 break
-            if distinct and (frozenset(plan.values) in known or plan.is_violated):
+            if distinct and (plan.is_violated or any(answer <= plan.values.keys() for answer in known)):
                 continue
             if not self._is_like_earlier(plan.values):
                 return plan.values

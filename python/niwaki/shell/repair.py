@@ -114,7 +114,7 @@ def repair(
                 expected=f"a patch, 1 to {len(result.patches)}"
                 if result.patches
                 else "no number: there is no patch",
-                suggestion="--write 1" if result.patches else "no --write",
+                suggestion="1" if result.patches else "nothing",
             )
         result.patches[chosen - 1].apply()
         if not as_json:

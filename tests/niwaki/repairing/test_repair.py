@@ -84,7 +84,7 @@ def test_a_file_that_changed_meanwhile_is_not_written(room: Path) -> None:
 def test_patches_differ_in_what_changes_and_the_best_is_first(room: Path) -> None:
     patches = nw.repair(room, KEEP, workers=0, patches=4).patches
     places = [frozenset((edit.line, edit.column) for edit in patch.edits) for patch in patches]
-    assert len(patches) > 1 and len(set(places)) == len(places)
+    assert len(patches) > 1 and not any(a <= b for a in places for b in places if a is not b)
     assert [patch.cost for patch in patches] == sorted(patch.cost for patch in patches)
     assert all(patch.repairs for patch in patches)
 
