@@ -147,7 +147,7 @@ test-blender:
 	  BLENDER_USER_RESOURCES=$(CURDIR)/out/blender/home NIWAKI_ZIP=$$(ls -t out/blender/*.zip | head -n 1) \
 	    $(IN_BLENDER)/bin/python -m pytest -q -c /dev/null --rootdir tests/integrations/blender -p no:cacheprovider \
 	    --confcutdir tests/integrations/blender --import-mode importlib tests/integrations/blender/inside_blender.py \
-	    tests/integrations/blender/meshes_in_blender.py; \
+	    tests/integrations/blender/meshes_in_blender.py tests/integrations/blender/fits_in_blender.py; \
 	else echo "no Blender as a module here (Python $(BLENDER_PYTHON), 400 MB, libraries of X): the extension is not tested in it"; fi
 
 blender-pictures:

@@ -18,6 +18,7 @@ from .errors import ModelFault as ModelFault
 from .errors import NiwakiError as NiwakiError
 from .fitting import Failure as Failure
 from .fitting import FitLoop as FitLoop
+from .fitting import blend as blend
 from .fitting import command as command
 from .fitting import fit as fit
 from .fitting import number as number

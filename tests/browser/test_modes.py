@@ -9,6 +9,7 @@ from pathlib import Path
 import ezdxf
 from niwaki.color.drawing import EXAMPLES
 from studio_page import at_rest, choose, contrasts, grow, nameless, picture, until
+from studio_process import PILE, serving
 
 
 def colored(page):
@@ -220,3 +221,20 @@ def test_a_choice_among_words_is_a_list_of_its_options(open_page, served):
     at_rest(page)
     assert page.locator(".choice select").first.input_value() == other
     assert not nameless(page)
+
+
+def test_a_result_that_does_not_keep_its_requirements_is_marked_and_says_which(open_page, tmp_path):
+    model = tmp_path / "pile.py"
+    model.write_text(PILE)
+    (tmp_path / "requirements.toml").write_text("height = [8.0, 9.0]\nstands = true\n")
+    with serving(tmp_path / "session", model) as served:
+        page = open_page(served)
+        choose(page, str(model), 1)
+        page.select_option("select[aria-label=Target]", "box")
+        until(page, "window.__studio.view.ask.target?.source == 'box'")
+        grow(page)
+        at_rest(page)
+        text = "height 8 to 9: height 3"
+        assert page.locator(".card .warning").get_attribute("title").endswith(f"does not keep: {text}")
+        assert page.locator("section[aria-label=Requirements]").inner_text().splitlines()[-1] == text
+        picture(page, "requirements")

@@ -21,7 +21,7 @@ SCALE, GREYS = 4, 16
 #: The sides of the blocks that are compared, pixels of a picture, and their greatest mean difference, of 255 greys.
 BLOCK, MOST = 8, 12.0
 #: The most pictures that are taken until the page has all of its contents.
-TRIES = 20
+TRIES = 100
 
 
 def small(page) -> Image.Image:

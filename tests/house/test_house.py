@@ -131,6 +131,7 @@ BY_NAME = {
     "checkup/inspection.py",
     "errors/extras.py",
     "fitting/functions.py",
+    "fitting/in_blender/serve.py",
     "fitting/loading.py",
     "fitting/openscad.py",
     "gallery/__init__.py",

@@ -28,6 +28,7 @@ MANUAL = {
     "dark": "studio-dark.png",
     "rules": "studio-coloring.png",
     "falls": "studio-structure.png",
+    "generator": "studio-generator.png",
 }
 
 #: Seconds, from studies of people: 0.1 feels immediate, 1 does not interrupt a thought.

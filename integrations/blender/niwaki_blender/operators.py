@@ -13,7 +13,7 @@ from bpy.props import IntProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 from niwaki.errors import NiwakiError
 
-from . import growth, permissions, placement, storage
+from . import fitting, growth, permissions, placement, storage
 
 #: Seconds between updates during a search.
 INTERVAL = 0.1
@@ -21,12 +21,29 @@ INTERVAL = 0.1
 UNTRUSTED = ("untrusted-file", "unnamed-file")
 
 #: The search in the background.
-_running: list[growth.Growth] = []
+_running: list[growth.Growth | fitting.Fitting] = []
 
 
-def running() -> growth.Growth | None:
+def running() -> growth.Growth | fitting.Fitting | None:
     """Return the search in the background; None without a search."""
     return _running[0] if _running else None
+
+
+def begin(search: growth.Growth | fitting.Fitting) -> None:
+    """Note the search in the background."""
+    _running.append(search)
+
+
+def end() -> None:
+    """Note that there is no search."""
+    _running.clear()
+
+
+def redraw(context: bpy.types.Context) -> None:
+    """Draw the panels again."""
+    for area in context.window.screen.areas if context.window else ():
+        if area.type == "VIEW_3D":
+            area.tag_redraw()
 
 
 def _name(outcome: growth.GrowthOutcome) -> str:
@@ -67,7 +84,7 @@ class _GrowthOperator:
         """Run from a button: update by a timer."""
         if not self._start(context):
             return {"CANCELLED"}
-        _running.append(self._growth)
+        begin(self._growth)
         self._shown = None
         manager = context.window_manager
         self._timer = manager.event_timer_add(INTERVAL, window=context.window)
@@ -81,9 +98,7 @@ class _GrowthOperator:
             return {"RUNNING_MODAL"}
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
-        for area in context.window.screen.areas if context.window else ():
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
+        redraw(context)
         if not self._growth.has_ended:
             best = self._growth.best
             if best is not self._shown:
@@ -92,12 +107,12 @@ class _GrowthOperator:
             return {"PASS_THROUGH"}
         placement.hide_best()
         context.window_manager.event_timer_remove(self._timer)
-        _running.clear()
+        end()
         return self._finish(context)
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Abandon the search; Blender calls this when it loads another file or closes the window."""
-        _running.clear()
+        end()
         self._growth.abandon()
 
     def _start(self, context: bpy.types.Context) -> bool:

@@ -13,6 +13,7 @@ from bpy.props import (
     PointerProperty,
     StringProperty,
 )
+from niwaki.fitting.in_blender import sockets
 
 from . import conversion, permissions
 from .order import Order, Triple, direction
@@ -29,6 +30,12 @@ def gallery_models() -> tuple[tuple[str, str], ...]:
 
 def _models(settings: Any, context: Any, text: str) -> list[tuple[str, str]]:
     return [entry for entry in gallery_models() if text in entry[0]]
+
+
+def _modifiers(settings: Any, context: Any, text: str) -> list[str]:
+    obj = settings.fit_object or context.object
+    rows = [] if obj is None else [entry.name for entry in obj.modifiers if sockets.is_node_tree(entry)]
+    return [name for name in rows if text.lower() in name.lower()]
 
 
 def _is(kind: str) -> Any:
@@ -103,6 +110,25 @@ class Settings(bpy.types.PropertyGroup):
     )
     seed: IntProperty(name="Seed", description="Seed of all random choices", default=1, min=0)
 
+    fit_object: PointerProperty(
+        name="Object",
+        description="The object whose Geometry Nodes modifier is fitted. Default: the active object",
+        type=bpy.types.Object,
+        poll=lambda settings, obj: any(map(sockets.is_node_tree, obj.modifiers)),
+    )
+    fit_modifier: StringProperty(
+        name="Modifier",
+        description="The Geometry Nodes modifier, if the object has several",
+        search=_modifiers,
+    )
+    evaluations: IntProperty(
+        name="Evaluations",
+        description="How often a fit evaluates the node tree",
+        default=300,
+        min=1,
+        max=10_000,
+    )
+
     def file(self) -> Path | None:
         """Return the file of models, if it is set."""
         return Path(bpy.path.abspath(self.model_file)).resolve() if self.model_file else None
@@ -128,16 +154,22 @@ class Settings(bpy.types.PropertyGroup):
         if not isinstance(arguments, dict):
             raise ValueError('The arguments are not a table: write {"name": value}')
         origin = (0.0, 0.0, 0.0) if self.target is None else tuple(self.target.matrix_world.translation)
-        goals = self._goals(context, origin)
+        goals = self.goals(context, origin)
         return Order(reference, goals, origin, arguments, count or self.count, self.effort, self.seed)
 
-    def _goals(self, context: bpy.types.Context, origin: Triple) -> dict[str, Any]:
-        """Collect options of `niwaki.targets.asks`, in scene units from an origin."""
+    def goals(
+        self,
+        context: bpy.types.Context,
+        origin: Triple = (0.0, 0.0, 0.0),
+        but: bpy.types.Object | None = None,
+    ) -> dict[str, Any]:
+        """Collect options of `niwaki.targets.asks`, in scene units from an origin; `but` is no obstacle."""
         goals: dict[str, Any] = {}
         if self.target is not None:
             goals["target"] = conversion.mesh(self.target, context).target(origin)
         if self.obstacles is not None:
-            meshes = [obj for obj in self.obstacles.all_objects if obj.type == "MESH" and obj != self.target]
+            meshes = [obj for obj in self.obstacles.all_objects if obj not in (self.target, but)]
+            meshes = [obj for obj in meshes if obj.type == "MESH"]
             goals["avoid"] = [conversion.mesh(obj, context).target(origin) for obj in meshes]
         if self.use_floor:
             goals["floor"] = self.floor - origin[2]

@@ -9,9 +9,13 @@
 | `generator`, `loading` | the interface of a model that somebody else wrote; which generator a model is |
 | `functions`, `draws` | Python functions: ranges from their signature, or draws while they run |
 | `openscad`, `customizer` | OpenSCAD files, and the parameters of their Customizer |
+| `blend`, `node_ranges` | Blender files: the sockets of a Geometry Nodes modifier, and their ranges |
+| `in_blender` | what runs inside of Blender |
 | `commands` | programs that write a mesh file |
 | `discovery` | the parameters of a function that is defined by run, and when they are used |
 | `meshes` | meshes of what a generator returns |
+| `models` | the text of a model that calls a generator, for the studio |
+| `protocol` | answers of worker processes |
 | `worker`, `pool` | calls in worker processes: what a worker does, and how the parent process drives them |
 | `archive` | all evaluations, in a folder: cache, checkpoint and table |
 | `align` | place, turn and size of a mesh as further parameters |

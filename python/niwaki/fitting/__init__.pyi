@@ -3,6 +3,7 @@ from .answers import Answer as Answer
 from .answers import Answers as Answers
 from .answers import Effect as Effect
 from .answers import Interval as Interval
+from .blend import blend as blend
 from .commands import command as command
 from .draws import Draws as Draws
 from .entry import FitProgress as FitProgress
@@ -10,9 +11,12 @@ from .entry import fit as fit
 from .goals import Goal as Goal
 from .goals import Outcome as Outcome
 from .goals import number as number
+from .loading import generator_of as generator_of
 from .loop import Failure as Failure
 from .loop import FitLoop as FitLoop
 from .loop import Point as Point
+from .models import mesh_at as mesh_at
+from .models import model_text as model_text
 from .openscad import scad as scad
 from .result import FitResult as FitResult
 from .result import FitSample as FitSample

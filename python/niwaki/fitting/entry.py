@@ -215,7 +215,7 @@ def _caller(generator: Generator, workers: int | None, limit: Limit) -> Caller:
     number = cores() if workers is None else count("workers", workers)
     recipe = generator.recipe()
     if recipe is not None:
-        return Workers(recipe, number, limit)
+        return Workers(recipe, number, limit, generator.worker_command())
     warn(
         f"{generator.reason}, so it runs in this process: a call that hangs waits for ever, a crash ends the program, "
         "and one call runs at a time. Define the function at the top of a file to have it run in worker processes",

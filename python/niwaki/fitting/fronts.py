@@ -37,7 +37,9 @@ def front_camera(generator: Generator, image: NDArray[np.bool_]) -> Camera:
     """
     numbers = probe(0, 0) if generator.space is None else _middle(generator)
     recipe, limit = generator.recipe(), Limit(LIMIT)
-    caller = Here(generator, limit) if recipe is None else Workers(recipe, 1, limit)
+    caller = (
+        Here(generator, limit) if recipe is None else Workers(recipe, 1, limit, generator.worker_command())
+    )
     try:
         ((_, reply),) = caller.call([numbers])
     finally:

@@ -66,6 +66,13 @@ class Generator(ABC):
     def recipe(self) -> dict[str, Any] | None:
         """Return the data from which a worker process makes it again; None if it must stay in this process."""
 
+    def worker_command(self) -> list[str] | None:
+        """Return the words that start a worker process of another program; None for Niwaki's own (`worker.serve`).
+
+        The program reads the recipe and points, and answers, as Niwaki's worker does.
+        """
+        return None
+
     @property
     def reason(self) -> str:
         """The reason why it must stay in this process."""

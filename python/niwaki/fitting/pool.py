@@ -26,7 +26,9 @@ from niwaki.errors import InputError
 from niwaki.errors.processes import end_group
 from niwaki.fitting.draws import Drawn
 from niwaki.fitting.generator import Generator, Numbers
-from niwaki.fitting.worker import answer, read_answer
+from niwaki.fitting.meshes import defects
+from niwaki.fitting.protocol import read_answer
+from niwaki.fitting.worker import answer
 
 #: Calls that must be known before the limit of time follows from them; the limit in medians of their seconds.
 KNOWN, MEDIANS = 10, 10.0
@@ -94,7 +96,7 @@ class Reply:
         return cls(
             vertices,
             faces,
-            defects=tuple(head["defects"]),
+            defects=tuple(head["defects"] if "defects" in head else defects(vertices, faces)),
             drawn=drawn,
             seconds=seconds,
             parts=tuple(parts),
@@ -185,10 +187,14 @@ class Workers:
         The number of processes; they start when there is work for them.
     limit
         The limit of time of a call.
+    program
+        The words that start a process of another program; see `Generator.worker_command`.
     """
 
-    def __init__(self, recipe: Mapping[str, Any], count: int, limit: Limit) -> None:
-        self._recipe, self._count, self._limit = recipe, count, limit
+    def __init__(
+        self, recipe: Mapping[str, Any], count: int, limit: Limit, program: Sequence[str] | None = None
+    ) -> None:
+        self._recipe, self._count, self._limit, self._program = recipe, count, limit, program
         self._workers: list[_Worker] = []
         self._news: queue.Queue[tuple[_Worker, Any]] = queue.Queue()
         self._deaths = self._started = 0
@@ -250,17 +256,18 @@ class Workers:
         return [worker for worker in self._workers if worker.ready and worker.task is None]
 
     def _start(self) -> _Worker:
-        environment = {
-            **os.environ,
-            "PYTHONPATH": os.pathsep.join(filter(None, sys.path)),
-            "OPENBLAS_NUM_THREADS": "1",
-            "OMP_NUM_THREADS": "1",
-        }
+        environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+        if self._program is None:
+            environment["PYTHONPATH"] = os.pathsep.join(filter(None, sys.path))
+        else:
+            # Its Python may be another one.
+            environment.pop("PYTHONPATH", None)
         # The worker's own session does not get the terminal's Ctrl-C.
         process = subprocess.Popen(
-            [sys.executable, "-c", _START],
+            self._program or [sys.executable, "-c", _START],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
+            stderr=None if self._program is None else subprocess.DEVNULL,
             env=environment,
             start_new_session=sys.platform != "win32",
         )

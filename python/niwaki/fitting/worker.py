@@ -12,7 +12,6 @@ import queue
 import threading
 import warnings
 from collections.abc import Mapping
-from contextlib import suppress
 from dataclasses import asdict
 from typing import IO, Any
 
@@ -24,6 +23,7 @@ from niwaki.fitting.functions import FailedRun
 from niwaki.fitting.generator import Generator
 from niwaki.fitting.loading import generator_of_recipe
 from niwaki.fitting.meshes import defects, mesh_of
+from niwaki.fitting.protocol import write_answer
 from niwaki.inputs.guard import reason_of
 from niwaki.targets.pieces import joined
 
@@ -48,13 +48,13 @@ def serve() -> None:
     try:
         generator = generator_of_recipe(recipe)
     except BaseException as error:
-        _write(answers, {"unloadable": text_of(error)})
+        write_answer(answers, {"unloadable": text_of(error)})
         os._exit(1)
-    _write(answers, {"ready": True})
+    write_answer(answers, {"ready": True})
     while True:
         request = waiting.get()
         head, body = answer(generator, request["numbers"])
-        _write(answers, {"key": request["key"], **head}, body)
+        write_answer(answers, {"key": request["key"], **head}, body)
 
 
 def _follow(requests: IO[bytes], waiting: queue.Queue[Mapping[str, Any]]) -> None:
@@ -103,19 +103,3 @@ def text_of(error: BaseException) -> str:
             where = f" ({os.path.basename(place)}:{trace.tb_lineno})"
         trace = trace.tb_next
     return f"{type(error).__name__}: {reason_of(error)}{where}"
-
-
-def _write(answers: IO[bytes], head: Mapping[str, Any], body: bytes = b"") -> None:
-    answers.write(json.dumps({**head, "bytes": len(body)}).encode() + b"\n" + body)
-    with suppress(BrokenPipeError):
-        answers.flush()
-
-
-def read_answer(answers: IO[bytes]) -> tuple[dict[str, Any], bytes] | None:
-    """Read an answer in the parent process; None at the end."""
-    line = answers.readline()
-    if not line.endswith(b"\n"):
-        return None
-    head = json.loads(line)
-    body = answers.read(head["bytes"])
-    return (head, body) if len(body) == head["bytes"] else None

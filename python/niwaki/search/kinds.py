@@ -44,6 +44,14 @@ def named(result: Result) -> list[list[tuple[str, str]]]:
     ]
 
 
+def narrow(result: Result, numbers: Sequence[int]) -> None:
+    """Leave some results of a search, each with its kind."""
+    info = result.info
+    if isinstance(info, ImproveInfo) and len(info.kinds) == len(result):
+        result.info = replace(info, kinds=tuple(info.kinds[number] for number in numbers))
+    result.samples = [result.samples[number] for number in numbers]
+
+
 def _number(kinds: Sequence[Mapping[str, str]]) -> int:
     """The number of different kinds."""
     return len({tuple(kind.items()) for kind in kinds})

@@ -17,7 +17,7 @@ COMMANDS = {
     "models": "List the gallery: name, how to run it, target, title.",
     "show": "Draw runs of a model side by side, with no target.",
     "grow": "Grow a model into its target.",
-    "fit": "Fit the parameters of a function that returns a mesh, or of an OpenSCAD file, to a target.",
+    "fit": "Fit the parameters of a function that returns a mesh, or of an OpenSCAD or Blender file, to a target.",
     "repair": "Change few numbers of a script so that what it makes keeps requirements.",
     "batch": "Run a batch of many searches, on all processors or many machines; a stopped batch resumes.",
     "replay": "Write a stored result again, in any format.",

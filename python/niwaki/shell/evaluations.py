@@ -25,8 +25,12 @@ SIZES = ("particles", "regrow", "rounds", "seconds", "populations")
 PATIENCE, SLOW = 60.0, 0.05
 #: The fewest particles of a population and of a part that is grown again, and the fewest rounds.
 FEWEST, FEWEST_REGROWN, FEWEST_ROUNDS = 12, 4, 3
-#: The most rounds of `improve` that are given; a search with an effort is expected to make about as many.
+#: The most rounds of `improve` that are given.
 ROUNDS = 15
+#: Calls of host functions in the rounds of a search with an effort of 1 (`FLOOR` of the engine's `price.rs`).
+CALLS = 1000
+#: The work of a search for several results over that of a search for one (`TIMES` of the engine's `archive.rs`).
+SEVERAL = 4.0
 #: Runs of the model in a round, counted with small models: of moves, and for each particle of a regrown part.
 MOVED, REGROWN = 5, 2
 
@@ -115,7 +119,7 @@ def sized(search: Search, is_free: bool) -> tuple[Search, Evaluations, str]:
         # An invalid run says little about its time; the search itself reports why.
         pass
     method = search.method
-    expected = _runs(method)
+    expected = _runs(method, pilot.calls)
     if expected is None:
         return search, Evaluations(pilot.calls), ""
     note = ""
@@ -128,7 +132,7 @@ def sized(search: Search, is_free: bool) -> tuple[Search, Evaluations, str]:
         numbers = ", ".join(f"{getattr(smaller, name)} {name}" for name in names)
         flags = ", ".join(f"--{name}" for name in names)
         note = f"a run takes {pilot.seconds:.2g} s in host functions, so the search has {numbers} ({flags} set them)"
-        search, expected = replace(search, method=smaller), _runs(smaller) or 0.0
+        search, expected = replace(search, method=smaller), _runs(smaller, pilot.calls) or 0.0
     return search, Evaluations(pilot.calls, search.runs * expected * pilot.calls), note
 
 
@@ -146,12 +150,22 @@ def _smaller(method: Method, runs: float) -> Method:
     return replace(method, particles=min(max(int(runs / len(method.sizes)), FEWEST), method.particles))
 
 
-def _runs(method: Method) -> float | None:
-    """Return about the number of runs of the model that a search makes; None if it is unknown."""
+def _runs(method: Method, calls: float) -> float | None:
+    """Return about the number of runs of the model that a search makes; None if it is unknown.
+
+    Parameters
+    ----------
+    method
+        The method.
+    calls
+        The calls of host functions in a run.
+    """
     if isinstance(method, Improve) and method.seconds is None:
-        rounds = ROUNDS if method.rounds is None else method.rounds
-        work = method.particles + rounds * (REGROWN * method.regrow + MOVED)
-        return float(work * _side_by_side(method))
+        if method.rounds is None:
+            rounds = CALLS * (method.effort or 1.0) / max(calls, 1)
+        else:
+            rounds = method.rounds * (REGROWN * method.regrow + MOVED)
+        return (method.particles + rounds) * _side_by_side(method)
     if isinstance(method, Smc) and method.seconds is None and isinstance(method.particles, int):
         return float(sum(method.sizes))
     return None
@@ -159,4 +173,4 @@ def _runs(method: Method) -> float | None:
 
 def _side_by_side(method: Improve) -> float:
     """Return the work of a search for several results over that of a search for one."""
-    return 0.6 * method.diverse if method.diverse else 1.0
+    return SEVERAL if method.diverse else 1.0

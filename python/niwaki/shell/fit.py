@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 import math
 import sys
+from collections.abc import Sequence
+from os import PathLike
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -14,16 +16,14 @@ import typer
 import niwaki as nw
 from niwaki import targets
 from niwaki.draw import picture
-from niwaki.errors import InputError
 from niwaki.errors.files import write_whole
 from niwaki.errors.folders import held_folder
+from niwaki.errors.settings import bad
+from niwaki.fitting.blend import BlendGenerator, blend
 from niwaki.fitting.fronts import front_camera
-from niwaki.fitting.functions import FunctionGenerator
 from niwaki.fitting.generator import Generator
-from niwaki.fitting.loading import generator_of
-from niwaki.inputs.modules import run_file
-from niwaki.lang.models import Model
-from niwaki.shell import controls, folders, pictures, settings
+from niwaki.fitting.loading import BLEND, generator_of
+from niwaki.shell import controls, folders, origin, pictures, settings
 from niwaki.shell.app import Json, Seed, app, counted
 from niwaki.shell.progress import duration, status_line
 from niwaki.targets import asks
@@ -34,10 +34,16 @@ OPTIONS = (
     *("match_image", "match_shadow", "camera", "weight_image", "weight", "light", "receiver"),
 )
 
+
+#: Mesh files in which Blender leaves z up, and the options that are solids.
+Z_UP, SOLIDS = (".stl", ".ply", ".3mf"), ("target", "avoid")
+
 ModelFile = Annotated[
     str,
     typer.Argument(
-        metavar="GENERATOR", help="file.py:function, which is run, or an OpenSCAD file: box.scad."
+        metavar="GENERATOR",
+        help="file.py:function, which is run, an OpenSCAD file: box.scad, or a Blender file with Geometry Nodes: "
+        "chair.blend, chair.blend:Object, chair.blend:Object:Modifier.",
     ),
 ]
 
@@ -69,6 +75,14 @@ def fit(
     align: Annotated[
         bool, typer.Option("--align", help="Search the place, turn and size of the mesh, too.")
     ] = False,
+    hold: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--hold",
+            metavar="NAME=VALUE",
+            help="Hold the socket NAME of a Blender file at VALUE; without =VALUE at its value there. Repeatable.",
+        ),
+    ] = None,
     seed: Seed = None,
     output: Annotated[str | None, folders.output("the model's name and -fit")] = None,
     as_json: Json = False,
@@ -79,7 +93,7 @@ def fit(
 
     The same command goes on where it stopped.
     """
-    generator = generator_named(model)
+    generator = generator_named(model, hold or ())
     score = goal(generator, options)
     folder = None if as_json and output is None else Path(output or f"{generator.name}-fit")
     with status_line(f"fitting {generator.name}") as show:
@@ -107,48 +121,55 @@ def fit(
         raise typer.Exit(130)
 
 
-def generator_named(reference: str) -> Generator:
-    """Return the generator of `file.py:function` or of an OpenSCAD file.
+def generator_named(reference: str, hold: Sequence[str] = ()) -> Generator:
+    """Return the generator of `file.py:function`, of an OpenSCAD file, or of an object of a Blender file.
+
+    Parameters
+    ----------
+    reference
+        The words of the command line.
+    hold
+        Sockets of a Blender file that are held: their names, or NAME=VALUE.
 
     Raises
     ------
     InputError
         `unknown-model`.
     """
-    if reference.lower().endswith(".scad"):
-        return generator_of(reference)
-    place, _, name = reference.rpartition(":") if not reference.endswith(".py") else (reference, "", "")
-    if not place.endswith(".py") or not Path(place).is_file():
-        reason = "write file.py:function, or the path of an OpenSCAD file"
-        if place.endswith(".py"):
-            reason = f"there is no file {Path(place).absolute()}"
-        raise InputError("unknown-model", name=reference, reason=reason)
-    module, _ = run_file(Path(place).resolve())
-    functions = {
-        key: value
-        for key, value in vars(module).items()
-        if callable(value) and getattr(value, "__module__", "") == module.__name__ and not key.startswith("_")
-    }
-    if not name and len(functions) == 1:
-        (name,) = functions
-    if name not in functions:
-        listed = ", ".join(functions) or "no function"
-        raise InputError("unknown-model", name=reference, reason=f"{place} defines {listed}")
-    function = functions[name]
-    if isinstance(function, Model):
-        reason = f"`{name}` is a model of Niwaki's own: `niwaki grow {reference}` searches it"
-        raise InputError("unknown-model", name=reference, reason=reason)
-    return FunctionGenerator(function)
+    if match := BLEND.fullmatch(reference):
+        names, values = origin.read(origin.Flags(hold=list(hold)))
+        return blend(match[1], match[2], match[3], hold={**dict.fromkeys(names), **values}, up="y")
+    if hold:
+        raise bad(
+            "--hold", hold[0], "a Blender file, whose sockets it names", "its own range, in the model's file"
+        )
+    return generator_of(reference)
 
 
 def goal(generator: Generator, options: dict[str, Any]) -> nw.Score:
-    """Return the score of the flags; an image without a camera is seen from the front."""
+    """Return the score of the flags; an image without a camera is seen from the front.
+
+    Beside a Blender file, meshes stand up that Blender writes with z up: y is up in pictures and GLB files.
+    """
     values = controls.read(options)
+    if isinstance(generator, BlendGenerator):
+        values = {name: _stood(value) if name in SOLIDS else value for name, value in values.items()}
     if values.get("match_image") is not None and values.get("camera") is None:
         values["camera"] = front_camera(generator, targets.images.silhouette(values["match_image"]))
     terms = asks.sketches_of(values, name=generator.name)
     # One mesh is one part, which intersects nothing.
     return asks.score([term for term in terms if term[0] != "no_self_intersection"])
+
+
+def _stood(value: Any) -> Any:
+    """Turn a mesh file, or several, in which z is up."""
+    if isinstance(value, list | tuple):
+        return [_stood(entry) for entry in value]
+    if not isinstance(value, str | PathLike) or Path(value).suffix.lower() not in Z_UP:
+        return value
+    mesh = nw.Target.load(value)
+    x, y, z = mesh.vertices.T
+    return nw.Target(np.stack([x, z, -y], axis=1), mesh.faces, mesh.name)
 
 
 def progress_text(now: nw.fitting.FitProgress) -> str:

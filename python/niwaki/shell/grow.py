@@ -155,16 +155,22 @@ def _run(
     """Run the search, with a line about its progress, until results keep the requirements beside the model."""
     rules = requirements.beside(reference)
 
-    def attempt(seed: int) -> nw.Result:
+    method = search.method
+    count = getattr(method, "diverse", None) or search.runs
+
+    def attempt(seed: int, candidates: int) -> nw.Result:
         if seed == search.seed:
             return search.run(threads=threads, progress=progress, checkpoint=checkpoint)
         print(f"no result keeps {requirements.NAME}: another search with seed {seed}", file=sys.stderr)
-        return replace(search, seed=seed).run(threads=threads, progress=progress)
+        further = replace(search, seed=seed)
+        if isinstance(method, nw.improve):
+            further = replace(further, runs=1, method=replace(method, diverse=candidates))
+        return further.run(threads=threads, progress=progress)
 
     with clock.part("search"):
         line = progress_line(reference.model.name, verbose, spent)
         with line as progress, resume.report_interrupt(checkpoint, "grow"):
-            return requirements.keeping(rules, attempt, search.seed)
+            return requirements.keeping(rules, attempt, search.seed, count)
 
 
 @contextmanager

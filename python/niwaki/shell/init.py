@@ -1,7 +1,11 @@
-"""`niwaki init`: a folder to begin with: a model, its target, requirements, a test that grows it, and a README."""
+"""`niwaki init`: a folder to begin with: a model, its target, requirements, a test that grows it, and a README.
+
+With `--generator` the model calls a generator that somebody else wrote.
+"""
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Annotated
 
@@ -10,6 +14,8 @@ import typer
 from niwaki.draw.scene import Scene
 from niwaki.errors import InputError
 from niwaki.errors.files import ensure_folder, write_whole
+from niwaki.fitting.loading import generator_of
+from niwaki.fitting.models import model_text
 from niwaki.shell import folders
 from niwaki.shell.app import app
 from niwaki.shell.requirements import NAME
@@ -86,26 +92,58 @@ README = """# House
 """
 
 
+WRAPPED = """# {name}
+
+`{file}` is a model: its choices are the parameters of `{place}`, which it calls. Change their ranges in it.
+
+    niwaki show {file}                        runs of the model, side by side
+    niwaki grow {file} --target target.stl    a search; the result is in out/
+    niwaki studio {file}                      the same in the browser: sliders, holding, ten results that differ
+"""
+
+
 @app.command()
 def init(
     folder: Annotated[Path, typer.Argument(metavar="NEW-FOLDER", help="A new folder, or an empty one.")],
+    generator: Annotated[
+        str | None,
+        typer.Option(
+            "--generator",
+            metavar="GENERATOR",
+            help="Write a model that calls a function, file.py:function, or an OpenSCAD file: box.scad.",
+        ),
+    ] = None,
     force: folders.Force = False,
 ) -> None:
     """Write a folder to begin with: a model, its target, requirements, a test, a README."""
-    texts = {
-        "house.py": MODEL,
-        NAME: REQUIREMENTS,
-        "test_house.py": TEST,
-        "README.md": README,
-    }
-    present = [name for name in (*texts, "target.obj") if (folder / name).exists()]
+    if generator is None:
+        texts = {"house.py": MODEL, NAME: REQUIREMENTS, "test_house.py": TEST, "README.md": README}
+        last, next_ = ["target.obj"], "grow house.py --target target.obj"
+    else:
+        texts, last = _calling(generator, folder), list[str]()
+        next_ = f"studio {next(iter(texts))}"
+    present = [name for name in (*texts, *last) if (folder / name).exists()]
     if present and not force:
         raise InputError("already-there", path=folder / present[0], count=len(present), cure="add `--force`")
     ensure_folder(folder)
     for name, text in texts.items():
         write_whole(folder / name, text.encode())
-    shapes = [box((0, 0.85, 0), (2.4, 1.7, 1.6)), wedge((0, 2.1, 0), (2.4, 0.8, 1.6))]
-    Scene([("walls", [shapes[0]]), ("roof", [shapes[1]])]).export(folder / "target.obj")
-    for name in (*texts, "target.obj"):
+    if generator is None:
+        shapes = [box((0, 0.85, 0), (2.4, 1.7, 1.6)), wedge((0, 2.1, 0), (2.4, 0.8, 1.6))]
+        Scene([("walls", [shapes[0]]), ("roof", [shapes[1]])]).export(folder / "target.obj")
+    for name in (*texts, *last):
         print(folder / name)
-    print(f"next: cd {folder} && niwaki grow house.py --target target.obj")
+    print(f"next: cd {folder} && niwaki {next_}")
+
+
+def _calling(reference: str, folder: Path) -> dict[str, str]:
+    """Return the texts of a folder whose model calls a generator."""
+    generator = generator_of(reference)
+    if generator.space is None:
+        reason = "it draws its parameters while it runs; a model needs their ranges in its signature"
+        raise InputError("unknown-model", name=reference, reason=reason)
+    path, colon, name = reference.rpartition(":") if ".py:" in reference else (reference, "", "")
+    place = Path(os.path.relpath(path, folder)).as_posix() + colon + name
+    file = f"{generator.name}_model.py"
+    readme = WRAPPED.format(name=generator.name, file=file, place=place)
+    return {file: model_text(generator, place), "README.md": readme}

@@ -67,6 +67,12 @@ def find(reference: str) -> ModelReference:
         place, colon, name = reference, ":", ""
     if colon and place.endswith(".py"):
         return _in_file(reference, Path(place), name)
+    if reference.lower().endswith(".scad"):
+        reason = (
+            f"an OpenSCAD file is no model: `niwaki fit {reference}` fits its parameters, and "
+            f"`niwaki init NEW-FOLDER --generator {reference}` writes a model that calls it"
+        )
+        raise InputError("unknown-model", name=reference, reason=reason)
     gallery_entry = entry(reference)
     if gallery_entry is not None:
         return ModelReference(gallery_entry.name, gallery_entry.model, gallery_entry)

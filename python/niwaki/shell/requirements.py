@@ -9,11 +9,12 @@
 
 Lengths are in units of the scene. A search asks for a target and forbids intersections as always
 (`niwaki.targets.asks`). Its results are held against the file, and those that do not keep all of it are left out. If no
-result keeps the file, the search is repeated with further seeds.
+result keeps the file, further searches look for many different results, among which one may keep it.
 """
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Annotated
@@ -30,6 +31,8 @@ from niwaki.inputs.files import text_of
 from niwaki.inputs.texts import toml_of
 from niwaki.result import Result, Sample
 from niwaki.search.collisions import breaking
+from niwaki.search.kinds import TOO_FEW, narrow
+from niwaki.search.warnings import SearchWarning
 from niwaki.shares import percent
 from niwaki.shell.references import ModelReference
 from niwaki.shell.reports import RequirementRow
@@ -38,6 +41,8 @@ from niwaki.targets.sketches import no_self_intersection
 NAME = "requirements.toml"
 #: The most searches, with consecutive seeds, for a result that keeps the requirements.
 ATTEMPTS = 3
+#: How many different results a search after the first has, to choose from.
+CANDIDATES = 12
 #: Points this close to the lowest point, as a share of the height, touch the ground.
 CONTACT = 0.01
 
@@ -161,34 +166,41 @@ def load(place: Path) -> Requirements:
     return rules
 
 
-def keeping(rules: Requirements | None, attempt: Callable[[int], Result], seed: int) -> Result:
-    """Search until there are results that keep the requirements, with the seeds after the first.
+def keeping(
+    rules: Requirements | None, attempt: Callable[[int, int], Result], seed: int, count: int
+) -> Result:
+    """Search until there are results that keep the requirements.
 
     Parameters
     ----------
     rules
         The requirements; None for none.
     attempt
-        A search with a seed.
+        A search with a seed for a number of results that differ.
     seed
-        The first seed.
+        The first seed; further searches have the seeds after it.
+    count
+        The number of results that are wanted.
 
     Returns
     -------
     Result
         The results that keep all requirements. If no search has such results: those of the first search.
     """
-    first = attempt(seed)
+    first = attempt(seed, count)
     if rules is None:
         return first
     result = first
     for number in range(1, ATTEMPTS + 1):
-        good = [sample for sample in result.samples if not rules.unmet(sample)]
+        good = [place for place, sample in enumerate(result.samples) if not rules.unmet(sample)]
         if good:
-            result.samples = good
+            narrow(result, good[:count])
             return result
         if number < ATTEMPTS and not result.interrupted:
-            result = attempt((seed + number) % 2**53)
+            # What is wanted is results that keep the requirements, not as many as there are candidates.
+            with warnings.catch_warnings():
+                warnings.filterwarnings("ignore", TOO_FEW, SearchWarning)
+                result = attempt((seed + number) % 2**53, max(count, CANDIDATES))
     return first
 
 

@@ -57,7 +57,7 @@ class Worker:
         patience: float | None = None,
         slow: dict[str, Stamp] | None = None,
     ) -> None:
-        self._words, self._environment, self._patience = words, environment, patience
+        self._words, self._environment, self.patience = words, environment, patience
         self._slow = {} if slow is None else slow
         self._process: asyncio.subprocess.Process | None = None
         self._lock = asyncio.Lock()
@@ -112,7 +112,7 @@ class Worker:
             )
             self._process = process
         assert process.stdin is not None and process.stdout is not None
-        async with asyncio.timeout(self._patience) as limit:
+        async with asyncio.timeout(self.patience) as limit:
             end = limit.when()
             _put(process.stdin, msgspec.json.encode(job))
             await process.stdin.drain()
@@ -144,9 +144,7 @@ class Worker:
     def _timeout(self) -> Problem:
         """Report a job or a file that took too long."""
         if not self._loading.path:
-            text = (
-                f"this took more than {self._patience:.0f} s and was ended; a fresh process takes its place"
-            )
+            text = f"this took more than {self.patience:.0f} s and was ended; a fresh process takes its place"
             return Problem("too-slow", text)
         if self._stamp is not None:
             self._slow[self._loading.path] = self._stamp

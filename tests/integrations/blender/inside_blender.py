@@ -17,12 +17,13 @@ from types import SimpleNamespace
 from typing import Any
 
 import bpy
+import layouts
 import numpy as np
 import pytest
 from bpy_extras.object_utils import world_to_camera_view
 from mathutils import Vector
+from rendering import render
 
-HOME = os.environ["BLENDER_USER_RESOURCES"]
 ZIP = Path(os.environ["NIWAKI_ZIP"]).resolve()
 PICTURES = os.environ.get("NIWAKI_PICTURES")
 
@@ -30,26 +31,8 @@ PICTURES = os.environ.get("NIWAKI_PICTURES")
 MODEL = Path(__file__).with_name("marked_tower.txt").read_text()
 
 
-@pytest.fixture(scope="session", autouse=True)
-def installed() -> None:
-    """Install the extension as a user does."""
-    # `bpy` provides this module.
-    import addon_utils
-
-    addon_utils.enable("bl_pkg")
-    with pytest.raises(ImportError):
-        import niwaki
-    done = bpy.ops.extensions.package_install_files(
-        filepath=str(ZIP), repo="user_default", enable_on_install=True
-    )
-    assert done == {"FINISHED"}
-    import niwaki
-
-    assert Path(niwaki.__file__).is_relative_to(HOME)
-
-
 @pytest.fixture(autouse=True)
-def scene() -> bpy.types.Scene:
+def scene(installed: None) -> bpy.types.Scene:
     """An empty scene with a short search."""
     bpy.ops.wm.read_homefile(use_empty=True)
     inside().permissions.forget()
@@ -405,29 +388,11 @@ def test_a_silhouette_and_a_shadow_are_matched(scene: bpy.types.Scene, tmp_path:
 
 
 def test_the_panel_is_drawn(scene: bpy.types.Scene, tmp_path: Path) -> None:
-    # A fake layout records the drawing, because `bpy` has no window.
     extension = inside()
     from bl_ext.user_default.niwaki import panel
 
-    class Layout(SimpleNamespace):
-        drawn: list[str] = []
-
-        def __getattr__(self, name: str) -> Any:
-            def note(*words: Any, **settings: Any) -> Any:
-                if name == "prop":
-                    assert words[1] in words[0].bl_rna.properties
-                self.drawn.append(" ".join([name, *map(str, words[-1:]), *map(str, settings.values())]))
-                return Layout()
-
-            return note
-
     def drawn() -> str:
-        Layout.drawn.clear()
-        fake = SimpleNamespace(layout=Layout())
-        for name in ("_model", "_progress", "_result"):
-            setattr(fake, name, getattr(panel.NIWAKI_PT_panel, name).__get__(fake))
-        panel.NIWAKI_PT_panel.draw(fake, bpy.context)
-        return "\n".join(Layout.drawn)
+        return layouts.drawn(panel.NIWAKI_PT_panel, ("_model", "_progress", "_result"))
 
     assert "prop target" in drawn() and "operator niwaki.grow" in drawn() and "Trust" not in drawn()
     bpy.ops.niwaki.grow()
@@ -453,40 +418,11 @@ def test_the_extension_is_disabled_and_enabled() -> None:
 
 @pytest.mark.skipif(PICTURES is None, reason="pictures are made by `make blender-pictures`")
 def test_the_manual_s_picture(scene: bpy.types.Scene) -> None:
-    from PIL import Image
 
     settings = scene.niwaki_settings
     settings.effort, settings.seed = 1.0, 2
     bpy.ops.niwaki.grow(count=4)
-    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
-    scene.collection.objects.link(camera)
-    scene.camera = camera
     clouds = np.concatenate([cloud(result) for result in results()])
-    low, high = clouds.min(axis=0), clouds.max(axis=0)
-    bpy.ops.mesh.primitive_plane_add(size=400.0, location=((low + high)[0] / 2, (low + high)[1] / 2, low[2]))
-    ground = bpy.data.materials.new("ground")
-    ground.use_nodes = True
-    ground.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (0.42, 0.42, 0.4, 1)
-    bpy.context.object.data.materials.append(ground)
-    sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
-    sun.data.energy, sun.data.angle, sun.rotation_euler = 4.0, 0.05, (0.9, 0.0, -0.5)
-    scene.collection.objects.link(sun)
-    scene.world = bpy.data.worlds.new("world")
-    scene.world.use_nodes = True
-    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.75, 0.8, 0.9, 1)
-    scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.3
-    camera.rotation_euler = (0.85, 0.0, 0.6)
-    bpy.context.view_layer.update()
-    flat = [value for point in clouds[::7] for value in point]
-    camera.location, _ = camera.camera_fit_coords(bpy.context.evaluated_depsgraph_get(), flat)
-    scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 16, True
-    scene.render.resolution_x, scene.render.resolution_y = 880, 550
-    scene.view_settings.view_transform = "AgX"
     place = Path(PICTURES) / "blender.png"
-    scene.render.filepath = str(place)
-    bpy.ops.render.render(write_still=True)
-    with Image.open(place) as picture:
-        small = picture.convert("RGB").resize((720, 450), Image.Resampling.LANCZOS)
-    small = small.quantize(128, dither=Image.Dither.NONE)
-    small.save(place, optimize=True)
+    render(place, clouds[::7], (720, 450))
     assert place.stat().st_size < 150_000

@@ -10,9 +10,10 @@ from pathlib import Path
 import niwaki as nw
 import numpy as np
 import pytest
+from niwaki.fitting.in_blender import sockets
 from niwaki.search import Search
 from niwaki.search.entry import grow_search
-from niwaki_blender import axes, grid, growth, order, permissions
+from niwaki_blender import axes, fitting, grid, growth, order, permissions
 
 CORNERS = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-4.0, 4.0) for z in (0.0, 2.0)])
 FACES = np.array(
@@ -237,3 +238,68 @@ def test_a_manifest_is_for_one_python_and_one_platform() -> None:
     assert later["blender_version_min"] == "5.1.0" and "blender_version_max" not in later
     needed = build.requirements(build.LOCK.read_text())
     assert needed.count("==") == len(build.NEEDED) and "--hash=sha256:" in needed
+
+
+def box_row(name: str, kind: str = "real", value: object = 1.0, **settings: object) -> sockets.Socket:
+    """A socket with limits 0.5 and 3."""
+    usual = {"low": 0.5, "high": 3.0, "subtype": "", "entries": [], "is_used": True, "rules": []}
+    return sockets.Socket(name, name.lower(), None, kind, value, **{**usual, **settings})
+
+
+ROWS = [
+    box_row("Width"),
+    box_row("Height", rules=[{"tall": [True]}]),
+    box_row("Tall", "switch", False),
+    box_row("Unused", is_used=False),
+]
+
+
+def box(values: fitting.Values) -> tuple[np.ndarray, np.ndarray]:
+    """A block as deep as it is, in Blender's world, by the keys of its sockets."""
+    height = values["height"] if values["tall"] else 0.5
+    return (CORNERS * (0.5, 0.125, 0.5) + (0.5, 0.5, 0.0)) * (values["width"], 1.0, height), FACES
+
+
+def test_a_modifier_is_fitted_point_by_point() -> None:
+    target = order.Mesh("target", *box({"width": 2.0, "height": 1.6, "tall": True}))
+    fit = fitting.Fitting(ROWS, [], {"target": target.target()}, box, evaluations=60)
+    assert fit.loop.space.names == ["Width", "Tall", "Height"]
+    fit.work(0.0)
+    assert fit.done == 1 and not fit.has_ended and fit.progress().startswith("1 of 60")
+    while not fit.has_ended:
+        fit.work(0.01)
+    best, *rest = fit.answers(5)
+    assert best.values["tall"] is True and best.values["height"] == pytest.approx(1.6, abs=0.05)
+    assert best.covered > 0.98 and best.named["Width"] == pytest.approx(2.0, abs=0.05) and rest
+    assert not fit.interrupted and not fit.problem
+    # z is up in Blender, and the best mesh is shown there.
+    assert fit.best.vertices.max(axis=0) == pytest.approx([2.0, 1.0, 1.6], abs=0.1)
+    held = fitting.Fitting(ROWS, ["tall"], {"target": target.target()}, box, evaluations=1)
+    assert held.loop.space.names == ["Width"]
+
+
+def test_a_fit_ends_with_its_reason() -> None:
+    goals = {"target": BLOCK.target()}
+
+    def pointless(values: fitting.Values) -> None:
+        raise ValueError("the modifier gives points")
+
+    def removed(values: fitting.Values) -> None:
+        raise fitting.RemovedError("Chair was removed")
+
+    fit = fitting.Fitting(ROWS, [], goals, pointless)
+    fit.work(60.0)
+    assert fit.has_ended and fit.done == 20 and "failed: the modifier gives points" in fit.problem
+    fit = fitting.Fitting(ROWS, [], goals, removed)
+    fit.work(60.0)
+    assert fit.problem == "Chair was removed" and fit.answers(3) == []
+    fit = fitting.Fitting(ROWS, [], goals, box)
+    fit.stop()
+    fit.work(60.0)
+    assert fit.interrupted and fit.done == 0
+    with pytest.raises(ValueError, match="Choose a target mesh"):
+        fitting.goal_of({"floor": 0.0})
+    with pytest.raises(sockets.NodeTreeError, match="all sockets are held"):
+        fitting.Fitting(ROWS, ["width", "height", "tall"], goals, box)
+    with pytest.raises(sockets.NodeTreeError, match="depends on none"):
+        fitting.Fitting(ROWS[3:], [], goals, box)

@@ -67,7 +67,11 @@ FLAGS = {
     "--from": ("--from", "RUN.JSON", "A result to start from"),
     "--result": ("--result", "RUN.JSON", "A result of the model"),
     "--run": ("--run", "N", "Number of the result"),
-    "--hold": ("--hold", "PATTERN|NAME=VALUE", "Hold the parts of the result of --from"),
+    "--hold": (
+        "--hold",
+        "PATTERN|NAME=VALUE",
+        ("Hold the parts of the result of --from", "Hold the socket NAME of a Blender file"),
+    ),
     "--reroll": ("--reroll", "PATTERN", "Grow the parts again that match PATTERN"),
     # What a scene should be like.
     "--target": ("--target", "FILE", "A mesh to fill"),
@@ -164,6 +168,7 @@ FLAGS = {
     "--workers": ("--workers", "N", "Processes that evaluate."),
     "--limit": ("--limit", "S", "Seconds of one evaluation, until ten are known"),
     "--align": ("--align", None, "Search the place, turn and size of the mesh, too."),
+    "--generator": ("--generator", "GENERATOR", "Write a model that calls a function, file.py:function"),
     "--free": ("--free", "NAME", "Sizes and counts that may change, too"),
     "--fix": ("--fix", "NAME", "Literals that stay"),
     "--words": ("--words", "A,B,...", "Names that may replace one another"),
@@ -193,7 +198,7 @@ WORDS = {
     "MODELS": "The folder of the models.",
     "FOLDER": "The folder of a batch.",
     "FILE": "The file of a guide.",
-    "GENERATOR": "file.py:function, which is run, or an OpenSCAD file",
+    "GENERATOR": "file.py:function, which is run, an OpenSCAD file",
     "SCRIPT": "A Python script, file.py:function, or an OpenSCAD file. It is run.",
     "[MODEL.PY]...": "Files of models",
 }

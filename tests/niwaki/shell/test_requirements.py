@@ -127,19 +127,48 @@ def test_a_search_keeps_the_requirements_or_says_which_it_does_not(place: Path):
     assert code == 1 and row["unmet"][0].startswith("height 5 to 6: height ")
 
 
-def test_a_further_seed_is_tried(place: Path):
+def test_further_searches_have_more_results_to_choose_from(place: Path):
     sample = run(leaning, method=Forward(), seed=1)
-    seeds = []
+    attempts = []
 
-    def attempt(seed: int):
-        seeds.append(seed)
+    def attempt(seed: int, candidates: int):
+        attempts.append((seed, candidates))
         return run(leaning, method=Forward(), seed=1, x=0.0 if seed == 9 else 1.2)
 
-    kept = requirements.keeping(Requirements(stands=True), attempt, 8)
-    assert seeds == [8, 9] and kept.best.scene.bounds.tolist() == sample.best.scene.bounds.tolist()
-    seeds.clear()
-    requirements.keeping(Requirements(height=(9.0, 9.0)), attempt, 8)
-    assert seeds == [8, 9, 10]
+    kept = requirements.keeping(Requirements(stands=True), attempt, 8, 2)
+    assert attempts == [(8, 2), (9, 12)]
+    assert kept.best.scene.bounds.tolist() == sample.best.scene.bounds.tolist()
+    attempts.clear()
+    requirements.keeping(Requirements(height=(9.0, 9.0)), attempt, 8, 20)
+    assert attempts == [(8, 20), (9, 20), (10, 20)]
+
+
+STOOL = """from niwaki import box, cylinder, emit, flip, model, uniform
+
+
+@model
+def stool():
+    top = uniform(0.5, 1.0)
+    if flip(0.5):
+        emit(box((0, 0.5, 0), (top, 1.0, top)))
+    else:
+        for k in range(2):
+            emit(box((k * 0.8 - 0.4, 0.45, 0), (0.05, 0.9, 0.05)))
+        emit(box((0, 0.95, 0), (1.0, 0.1, 1.0)))
+"""
+
+
+def test_a_kind_that_fits_less_is_chosen_where_the_best_does_not_keep_the_requirements(place: Path):
+    (place / "stool.py").write_text(STOOL)
+    two = [box((x, 0.45, 0), (0.05, 0.9, 0.05)) for x in (-0.4, 0.4)]
+    Scene([("target", [*two, box((0, 0.95, 0), (1.0, 0.1, 1.0))])]).export(place / "stool.obj")
+    grow = "grow stool.py --target stool.obj --seed 1 --method improve --rounds 5 --json".split()
+    _, output = shell(*grow)
+    (thin,) = json.loads(output)["runs"]
+    (place / "requirements.toml").write_text("thinnest = 0.2\n")
+    code, output = shell(*grow)
+    (thick,) = json.loads(output)["runs"]
+    assert code == 0 and thick["unmet"] == [] and thick["log_score"] < thin["log_score"] - 10.0
 
 
 def test_check_says_how_often_each_requirement_holds_and_holds_a_result_against_them(place: Path):

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import sys
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
+import niwaki as nw
 import pytest
 from niwaki import box
 from niwaki.draw.scene import Scene
@@ -88,3 +90,37 @@ def test_a_line_has_evaluations_the_best_so_far_and_the_time_left(lines: list[st
     assert lines[-1] == "growing slow: 10 of about 50 evaluations, 80 % covered, 5 % outside, about 24 s left"
     call()
     assert spent.calls == 20
+
+
+@nw.host
+def identity(x: float) -> float:
+    return x
+
+
+@nw.model
+def sheds(count: int = 1):
+    for k in range(count):
+        height = identity(nw.uniform(0.2, 1.0))
+        nw.emit(box((k, height / 2, 0), (0.9, height, 0.9)))
+        if nw.flip(0.5):
+            nw.emit(box((k, height + 0.5, 0), (0.5, 0.9, 0.5)))
+
+
+@pytest.mark.parametrize(
+    ("count", "settings"),
+    [
+        (1, {"effort": 1.0}),
+        (3, {"effort": 0.3}),
+        (1, {"effort": 0.3, "diverse": 4}),
+        (1, {"rounds": 5, "diverse": 4}),
+    ],
+)
+def test_a_search_makes_about_as_many_evaluations_as_are_expected(
+    count: int, settings: dict[str, float]
+) -> None:
+    target = nw.Target.of_shapes(box((1, 1, 0), (3, 1.3, 1.3)))
+    search = nw.grow(sheds, target, count=count, rounds=1, seed=1, engine="sampler").search
+    _, spent, _ = evaluations.sized(replace(search, method=nw.improve(**settings)), False)
+    with spent.counted():
+        replace(search, method=nw.improve(**settings)).run()
+    assert spent.expected / 1.6 < spent.calls < 1.6 * spent.expected

@@ -148,12 +148,14 @@ def test_a_host_function_that_does_not_end_does_not_hold_the_desk_for_ever(tmp_p
     ask = m.Question(str(place), {}, m.Ask(target=m.TargetAsk("box")), m.Settings(count=1))
 
     async def work() -> None:
-        worker = Worker(str(place), patience=4.0)
+        worker = Worker(str(place))
         try:
             assert (await worker.do(m.Load(reference=str(place)))).problem is None
+            worker.patience = 2.0
             job = m.Grow(question=ask, run=0, seed=1, file=str(tmp_path / "0.json"))
             answer = await worker.do(job)
             assert answer.problem is not None and answer.problem.code == "too-slow"
+            worker.patience = None
             assert (await worker.do(m.Load(reference=ask.model))).problem is None
         finally:
             await worker.kill()

@@ -159,13 +159,16 @@ pub(super) fn search(
     watch: &mut Watch<'_>,
 ) -> Result<(Vec<Run>, Improved), Failure> {
     let single = Improve { diverse: None, keeps_all: true, ..improve.clone() };
-    let (best, mut info) = single.single(task, seed, 0, outputs, &mut |progress| watch(progress))?;
+    let (mut best, mut info) = single.single(task, seed, 0, outputs, &mut |progress| watch(progress))?;
     let population = info.rounds.first().map_or(1, |round| round.work).max(1);
     let slice = (population / PER_POPULATION).max(1);
     // A search that ended at once, as nothing could be better, leaves other kinds the work of a few populations.
     let least = if improve.rounds.is_none() { LEAST * population } else { 0 };
     let first = info.rounds.iter().map(|round| round.work).sum::<u64>().max(least);
     if info.interrupted {
+        // The best of the restarts so far.
+        best.sort_by(|a, b| b.log_score.total_cmp(&a.log_score));
+        best.truncate(count);
         return Ok((best, info));
     }
     // The count of invalid runs is separate, so that the archive is stored with its own count.

@@ -39,6 +39,31 @@ FITTING = (
         cure="pip install openscad-evaluator manifold3d",
     ),
     Message(
+        "no-blender",
+        "`{name}` cannot be opened: there is no Blender here",
+        why="{reason}; node trees are evaluated by your own Blender, in worker processes without a window",
+        help="install Blender 4.2 or later from blender.org, and name it: `NIWAKI_BLENDER=/path/to/blender`, or "
+        "`blender=` in Python; a Python with the package `bpy` does, too",
+        example="niwaki fit chair.blend --target chair.stl, on a machine without Blender",
+        cure="NIWAKI_BLENDER=/path/to/blender niwaki fit chair.blend --target chair.stl",
+    ),
+    Message(
+        "blender-failed",
+        "Blender does not open `{name}`",
+        why="{reason}",
+        help="open the file in this Blender by hand; a file of a later version needs a later Blender",
+        example="niwaki fit chair.blend --target chair.stl, of a file that is no .blend",
+        cure="niwaki fit chair.blend --target chair.stl, after the file was saved by Blender",
+    ),
+    Message(
+        "bad-node-tree",
+        "`{name}` cannot be fitted: {reason}",
+        why="the parameters are the sockets of one Geometry Nodes modifier of one object",
+        help="{cure}",
+        example='niwaki.blend("chair.blend", object="Chiar")',
+        cure='niwaki.blend("chair.blend", object="Chair", modifier="GeometryNodes")',
+    ),
+    Message(
         "no-literals",
         "nothing in `{path}` may change",
         why="a repair changes numbers of the script; sizes, counts, colours and strings stay unless they are named",

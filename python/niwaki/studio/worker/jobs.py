@@ -100,20 +100,21 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
     model, goals = asks.search(job.question)
     settings = job.question.settings
     progress, hold = watching(job.id, job.run, send, check), runs.values(job.question.hold) or None
+    count = variety.candidates(settings.count, settings.strength) if settings.count > 1 else 1
 
-    def attempt(seed: int) -> Result:
+    def attempt(seed: int, candidates: int) -> Result:
         return nw.grow(
             model.model,
             **goals,
             **spending(settings.effort),
-            diverse=variety.candidates(settings.count, settings.strength) if settings.count > 1 else None,
+            diverse=candidates if candidates > 1 else None,
             by=settings.by,
             seed=seed,
             hold=hold,
             progress=progress,
         )
 
-    result = requirements.keeping(requirements.beside(model), attempt, job.seed)
+    result = requirements.keeping(requirements.beside(model), attempt, job.seed, count)
     kinds = dict(zip(map(id, result.samples), named(result), strict=True))
     result.samples = variety.spread(ended(result), settings.count, settings.strength)
     answer = _answer(result, model, job.run, job.file, "run", send, job.id)

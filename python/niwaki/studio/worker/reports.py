@@ -11,6 +11,7 @@ from typing import Any
 import niwaki as nw
 from niwaki import draw, search, shell
 from niwaki.fitting import FitProgress
+from niwaki.fitting.loading import generator_of
 from niwaki.studio.messages import (
     Answer,
     Checked,
@@ -77,7 +78,7 @@ def fit(job: FitParameters, send: Any, check: Callable[[], None]) -> Answer:
     place = Path(job.reference if models.is_file(job.reference) else job.reference.rpartition(":")[0])
     models.check_permission(place)
     with loading(place):
-        generator = shell.fit.generator_named(job.reference)
+        generator = generator_of(job.reference)
     goal = options.score([("match_volume", {"target": asks.placed(job.target)})])
     start = time.perf_counter()
 

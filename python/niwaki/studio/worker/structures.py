@@ -64,22 +64,22 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
         send(Progressed(job.id, now.done, best, time.perf_counter() - start))
         check()
 
-    def attempt(seed: int) -> Result:
+    def attempt(seed: int, candidates: int) -> Result:
         draws = nw.run(
             model.model,
-            explore(draws=1, chains=max(1, round(CHAINS * settings.count * settings.effort))),
+            explore(draws=1, chains=max(1, round(CHAINS * candidates * settings.effort))),
             seed=seed,
             hold=runs.values(question.hold) or None,
             progress=progress,
             **question.arguments,
         )
         tilts = sorted(((_tilt_of(draw), -number) for number, draw in enumerate(draws)), reverse=True)
-        best = [draws[-number] for _, number in tilts[: settings.count]]
+        best = [draws[-number] for _, number in tilts[:candidates]]
         result = Result(draws.search, best, seed)
         result.interrupted = draws.interrupted
         return result
 
-    result = requirements.keeping(requirements.beside(model), attempt, job.seed)
+    result = requirements.keeping(requirements.beside(model), attempt, job.seed, settings.count)
     return _answer(result, model, job, "run", send, result.interrupted)
 
 

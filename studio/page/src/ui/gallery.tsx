@@ -132,19 +132,23 @@ function Card({ outcome, number }: { outcome: Outcome; number: number }) {
   // A number and its sign stay on a line.
   const share = (outcome.note || outcome.fit).replace(/ %/g, "\u00a0%");
   const score = outcome.log_score === null ? "impossible" : outcome.log_score.toFixed(1);
+  const misses = outcome.unmet.length === 0 ? "" : `does not keep: ${outcome.unmet.join("; ")}`;
   return (
     <div
       class="card"
       role="option"
       tabIndex={isPicked ? 0 : -1}
       aria-selected={isPicked}
-      aria-label={`Result ${number}, score ${score}, ${share}${isStarred ? ", starred" : ""}`}
+      aria-label={[`Result ${number}`, `score ${score}`, share, misses, isStarred ? "starred" : ""].filter(Boolean).join(", ")}
       onClick={() => void store.tell({ kind: "pick", key: outcome.key })}
     >
       <canvas ref={canvas} width={WIDTH} height={HEIGHT} />
       <div class="caption">
         <b>{number}</b>
-        <span title={[share || "no target", `log score ${score}`, outcome.kind].filter(Boolean).join(", ")}>
+        <span
+          class={misses === "" ? undefined : "warning"}
+          title={[share || "no target", `log score ${score}`, outcome.kind, misses].filter(Boolean).join(", ")}
+        >
           {share || score}
         </span>
         <button

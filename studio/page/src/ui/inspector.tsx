@@ -72,6 +72,7 @@ export function Inspector() {
           </label>
         )}
       </section>
+      <Unmet texts={active.unmet} />
       {store.kind.value === "structure" && <Balance />}
       <section class="choices" aria-label="Choices">
         {grouped(choices.slice(0, SHOWN), here).map(([call, members]) => (
@@ -95,6 +96,22 @@ export function Inspector() {
         {choices.length > SHOWN && <p class="quiet">{choices.length - SHOWN} more choices: select a smaller part to see them.</p>}
       </section>
     </aside>
+  );
+}
+
+/** What a result does not keep of the requirements beside its model. */
+function Unmet({ texts }: { texts: string[] }) {
+  if (texts.length === 0) return null;
+  return (
+    <section aria-label="Requirements">
+      <h2>Requirements</h2>
+      <p class="quiet">This result does not keep requirements.toml:</p>
+      {texts.map((text) => (
+        <p key={text} class="warning">
+          {text}
+        </p>
+      ))}
+    </section>
   );
 }
 
