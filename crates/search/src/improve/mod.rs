@@ -20,6 +20,8 @@ mod archive;
 mod arms;
 mod choose;
 mod course;
+mod edits;
+mod levels;
 mod look;
 mod niche;
 mod price;

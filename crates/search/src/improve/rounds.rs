@@ -95,16 +95,16 @@ impl Learnt {
 
 /// The search while it runs.
 pub(super) struct Search<'a> {
-    task: &'a Task,
-    improve: &'a Improve,
-    seed: u64,
+    pub(super) task: &'a Task,
+    pub(super) improve: &'a Improve,
+    pub(super) seed: u64,
     /// The work of a round.
     pub slice: u64,
     /// The spreads of choices, for small steps; empty before the first round of moves.
-    spreads: HashMap<u128, f64>,
+    pub(super) spreads: HashMap<u128, f64>,
     pub best: Run,
     /// The state from which chains continue; absent only while a chain runs, and if the search was stopped at once.
-    state: Option<State>,
+    pub(super) state: Option<State>,
     /// Number of populations so far.
     populations: u64,
     /// The arms that suit the task.
@@ -199,6 +199,7 @@ impl<'a> Search<'a> {
         let (arm, before) = (self.tallies[index].arm, self.best.log_score);
         let (work, parts) = match arm.form {
             Form::Population(settings) => (self.population(settings(self.improve), may_continue)?, 0),
+            Form::Edits(kernel) => self.levels(&kernel(self.improve)?, number, may_continue)?,
             Form::Chain(kernel, steps) => self.step(&kernel(self.improve)?, steps, number, may_continue)?,
         };
         let rate = (self.best.log_score - before).max(0.0) * self.slice as f64 / work.max(1) as f64;
@@ -248,6 +249,15 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// Makes what a kernel needs before its first round.
+    pub(super) fn prepare(&mut self, kernel: &Kernel) -> std::result::Result<(), Failure> {
+        let drifts = kernel.any(&|kernel| matches!(kernel, Kernel::Leaf(Proposer::Drift(_))));
+        if drifts && self.spreads.is_empty() {
+            self.spreads = spreads(self.task, self.seed)?;
+        }
+        Ok(())
+    }
+
     /// Makes steps of a chain from the present run, `steps` between two looks at its work. Returns their work and how many parts were
     /// grown again and kept.
     fn step(
@@ -259,10 +269,7 @@ impl<'a> Search<'a> {
     ) -> std::result::Result<(u64, u64), Failure> {
         let settings = ChainSettings { seed: self.seed, thin: 0, ..ChainSettings::default() };
         let plan = Plan::new(kernel)?;
-        let drifts = kernel.any(&|kernel| matches!(kernel, Kernel::Leaf(Proposer::Drift(_))));
-        if drifts && self.spreads.is_empty() {
-            self.spreads = spreads(self.task, self.seed)?;
-        }
+        self.prepare(kernel)?;
         let Some(state) = self.state.take() else { return Ok((self.slice, 0)) };
         let mut chain: Chain = Chain::at(self.task, &settings, number, plan, state, &self.spreads)?;
         chain.restrict(self.improve.power, None);

@@ -3,6 +3,7 @@
 //! An arm is a constant in a file here, with its name in reports, the tasks that it suits, and the form of its steps. A new one is
 //! such a file and a row of [`ARMS`].
 
+mod levels;
 mod moves;
 mod population;
 mod regrow;
@@ -17,7 +18,8 @@ use serde::{Deserialize, Deserializer, Serialize};
 pub(super) use population::POPULATION;
 
 /// All arms. Each that suits the task has the next of the first rounds, in this order.
-const ARMS: [&Arm; 4] = [&regrow::FEW, &moves::MOVES, &regrow::MANY, &population::POPULATION];
+const ARMS: [&Arm; 5] =
+    [&regrow::FEW, &moves::MOVES, &regrow::MANY, &levels::LEVELS, &population::POPULATION];
 
 /// An arm.
 pub(super) struct Arm {
@@ -35,6 +37,8 @@ pub(super) enum Form {
     Population(fn(&Improve) -> Settings),
     /// A chain from the best run: its kernel, and the number of proposals between two looks at its work.
     Chain(fn(&Improve) -> Result<Kernel, Fault>, u64),
+    /// Edits of the best run, each improved by a chain with this kernel.
+    Edits(fn(&Improve) -> Result<Kernel, Fault>),
 }
 
 /// A kind of step, by its name in reports.

@@ -7,7 +7,7 @@ use serde_json::json;
 
 pub(super) const MOVES: Arm = Arm { step: Step("move"), suits: |_, _| true, form: Form::Chain(kernel, 32) };
 
-fn kernel(_: &Improve) -> Result<Kernel, Fault> {
+pub(super) fn kernel(_: &Improve) -> Result<Kernel, Fault> {
     let drift = |step| leaf("drift", json!({"step": step, "target": 0.44}));
     Ok(Kernel::Mixture(vec![
         (4.0, Kernel::PRIOR),
