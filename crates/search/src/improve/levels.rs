@@ -1,6 +1,6 @@
 //! Rounds of edits: an edit of the run, moves that improve it, and a comparison with the run that it comes from.
 
-use super::edits::{self, Values};
+use super::edits::{self, Edit, Values};
 use super::part_seed;
 use super::rounds::Search;
 use niwaki_chain::kernel::Kernel;
@@ -47,14 +47,16 @@ impl Search<'_> {
             }
             let mut rng = Reserved::Improve.stream(seed, visit, 0);
             let length = present.primitives as u64 + 1;
-            let Some((values, runs)) = edits::draw(self.task, &present, &mut rng)? else {
+            let Some(edit) = edits::draw(self.task, &present, &self.tries, &mut rng)? else {
                 work = self.slice;
                 break;
             };
+            let Edit { values, form, runs } = edit;
             work += runs * length;
             let chain_seed = rng.next_u64();
             let Some((edited, tries)) = possible(self.task, &values, chain_seed)? else {
                 work += TRIES * length;
+                self.tries.note(form, false);
                 continue;
             };
             work += tries * length;
@@ -88,6 +90,7 @@ impl Search<'_> {
             if score > self.best.log_score {
                 self.best = chain.best.get(&chain.state, self.task)?;
             }
+            self.tries.note(form, score > so_far);
             if score > so_far {
                 kept += 1;
                 present = chain.into_state();

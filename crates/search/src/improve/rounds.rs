@@ -1,6 +1,7 @@
 //! The rounds of a search. Each makes steps of one arm from the best run, and the arms share the rounds by their gains.
 
 use super::arms::{self, Arm, Form, POPULATION, Step};
+use super::edits::Tries;
 use super::{Improve, population_seed};
 use niwaki_chain::kernel::Kernel;
 use niwaki_chain::leaf::Proposer;
@@ -53,6 +54,7 @@ pub(super) struct Stored<R> {
     slice: u64,
     populations: u64,
     learnt: Learnt,
+    tries: Tries,
 }
 
 /// What a search has learnt of its arms, for a search that goes on elsewhere: of each its step, the bits of its latest gain and its
@@ -109,6 +111,8 @@ pub(super) struct Search<'a> {
     populations: u64,
     /// The arms that suit the task.
     tallies: Vec<Tally>,
+    /// The edits so far.
+    pub(super) tries: Tries,
 }
 
 impl<'a> Search<'a> {
@@ -133,7 +137,18 @@ impl<'a> Search<'a> {
         let mut tallies = tallies(improve, task);
         // The first population has shown the gain of populations.
         note_population(&mut tallies, unit);
-        Ok(Search { task, improve, seed, slice, spreads, best, state, populations, tallies })
+        Ok(Search {
+            task,
+            improve,
+            seed,
+            slice,
+            spreads,
+            best,
+            state,
+            populations,
+            tallies,
+            tries: Tries::default(),
+        })
     }
 
     /// A search from a run and a chain's state at it, with rounds of this work, and with what another search has learnt.
@@ -150,7 +165,18 @@ impl<'a> Search<'a> {
         // Whoever starts such a search makes populations elsewhere.
         note_population(&mut tallies, slice * PER_POPULATION);
         learnt.inspect(|learnt| learnt.give(&mut tallies));
-        Search { task, improve, seed, slice, spreads, best, state: Some(state), populations: 1, tallies }
+        Search {
+            task,
+            improve,
+            seed,
+            slice,
+            spreads,
+            best,
+            state: Some(state),
+            populations: 1,
+            tallies,
+            tries: Tries::default(),
+        }
     }
 
     /// The gains that the search has learnt.
@@ -167,6 +193,7 @@ impl<'a> Search<'a> {
             slice: self.slice,
             populations: self.populations,
             learnt: self.learnt(),
+            tries: self.tries,
         })
     }
 
@@ -180,12 +207,12 @@ impl<'a> Search<'a> {
         seed: u64,
         stored: Stored<Run>,
     ) -> std::result::Result<Search<'a>, Failure> {
-        let Stored { best, state, slice, populations, learnt } = stored;
+        let Stored { best, state, slice, populations, learnt, tries } = stored;
         let state = Some(state.state(task)?);
         let (best, spreads) = (with_value(task, best)?, HashMap::new());
         let mut tallies = tallies(improve, task);
         learnt.give(&mut tallies);
-        Ok(Search { task, improve, seed, slice, spreads, best, state, populations, tallies })
+        Ok(Search { task, improve, seed, slice, spreads, best, state, populations, tallies, tries })
     }
 
     /// Makes a round; all rounds have about equal work. Returns its kind of step, its work, and how many parts were grown again and kept.
@@ -218,8 +245,8 @@ impl<'a> Search<'a> {
         let gains: Vec<f64> = self.tallies.iter().filter_map(|tally| tally.gain).collect();
         let u = rng.uniform();
         if gains.iter().all(|gain| *gain <= 0.0) || u < EVEN {
-            let least = (0..gains.len()).min_by_key(|index| self.tallies[*index].spent);
-            return least.unwrap_or(0);
+            let share = |tally: &Tally| tally.spent * tally.arm.rarity;
+            return (0..gains.len()).min_by_key(|index| share(&self.tallies[*index])).unwrap_or(0);
         }
         index(&gains, (u - EVEN) / (1.0 - EVEN))
     }

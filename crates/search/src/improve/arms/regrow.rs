@@ -16,12 +16,14 @@ pub(super) const FEW: Arm = Arm {
     step: Step("regrow"),
     suits: has_parts,
     form: Form::Chain(|improve| kernel(improve, improve.regrow), 1),
+    rarity: 1,
 };
 
 pub(super) const MANY: Arm = Arm {
     step: Step("regrow more"),
     suits: has_parts,
     form: Form::Chain(|improve| kernel(improve, MORE * improve.regrow), 1),
+    rarity: 1,
 };
 
 fn has_parts(_: &Improve, task: &Task) -> bool {

@@ -132,7 +132,7 @@ impl<S: Scalar> Trace<S> {
         moved
     }
 
-    /// The outermost parts with choices, of whose choices none is among `known`.
+    /// The outermost activations with choices at or below them, of which none is among `known`.
     pub fn parts_without(&self, program: &Program<S>, known: &dyn Fn(u128) -> bool) -> Vec<Part> {
         // Each part before those below it, with the place of the part above it.
         let mut parts = vec![(Part::WHOLE, 0, 0_usize, 0_usize)];
@@ -155,9 +155,19 @@ impl<S: Scalar> Trace<S> {
             parts[above].2 += new;
             parts[above].3 += old;
         }
-        let is_new = |at: usize| parts[at].2 > 0 && parts[at].3 == 0;
-        let is_outermost = |at: &usize| is_new(*at) && (*at == 0 || !is_new(parts[*at].1));
-        (0..parts.len()).filter(is_outermost).map(|at| parts[at].0).collect()
+        let mut outermost = Vec::new();
+        // Whether a part lies in one that is new; the iterations from one on are each a part of its own.
+        let mut inside = vec![false; parts.len()];
+        for at in 0..parts.len() {
+            let (part, above, new, old) = parts[at];
+            let is_new = new > 0 && old == 0 && !part.is_onward();
+            let is_inside = at > 0 && inside[above];
+            if is_new && !is_inside {
+                outermost.push(part);
+            }
+            inside[at] = is_new || is_inside;
+        }
+        outermost
     }
 
     /// The nodes on the way from a node, which is left out, down to a node below it.
