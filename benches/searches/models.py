@@ -106,7 +106,7 @@ def stem():
 
 @model
 def shelf():
-    """Build a shelf of a height: how many boards it has is decided first, and how the height is shared by their gaps."""
+    """Build a shelf of a height: the number of its boards is decided first, then how their gaps share the height."""
     width, height = uniform(4.0, 8.0), uniform(6.0, 20.0)
     emit(box((0.0, 0.5 * BOARD, 0.0), (width, BOARD, 3.0), bevel=0.0))
     gaps = [uniform(0.5, 4.0) for _ in range(discrete_uniform(1, 8))]

@@ -48,15 +48,15 @@ pub(super) struct Tries([(u64, u64); Form::ALL.len()]);
 impl Tries {
     /// Notes an edit.
     pub fn note(&mut self, form: Form, is_kept: bool) {
-        let (made, kept) = &mut self.0[form as usize];
-        *made += 1;
+        let (all, kept) = &mut self.0[form as usize];
+        *all += 1;
         *kept += u64::from(is_kept);
     }
 
     /// The share of a form's edits that is expected to be kept.
     fn share(&self, form: Form) -> f64 {
-        let (made, kept) = self.0[form as usize];
-        (kept + 1) as f64 / (made + 2) as f64
+        let (all, kept) = self.0[form as usize];
+        (kept + 1) as f64 / (all + 2) as f64
     }
 }
 
@@ -112,7 +112,7 @@ pub(super) fn draw(
             let address = trace.address(program, choice);
             turn(&mut values, address, rng);
             // Loops that are longer or shorter in the turned run, where a value that is drawn stays.
-            let Some(turned) = begun(task, &values, rng)? else { return edit(values, 1) };
+            let Some(turned) = bare_run(task, &values, rng)? else { return edit(values, 1) };
             let place = turned.numbers().find(|n| turned.address(program, *n) == address);
             values.extend(place.map(|n| (address, turned.choice(program, n).0.clone())));
             let lengths: HashMap<u128, usize> =
@@ -227,7 +227,7 @@ fn put(values: &mut Values, task: &Task, trace: &Trace, there: &mut Moved) {
 }
 
 /// A run of the program with these values, without its scene. `None` if it is impossible or invalid.
-fn begun(task: &Task, values: &Values, rng: &mut Stream) -> Result<Option<Trace>, Failure> {
+fn bare_run(task: &Task, values: &Values, rng: &mut Stream) -> Result<Option<Trace>, Failure> {
     let key = StreamKey::new(rng.next_u64(), 0, 0);
     let mut answers = Fresh::of(key, Some(values), &*task.hosts);
     match task.begin(&mut task.machine(), &mut answers) {
@@ -301,9 +301,9 @@ mod tests {
 
     /// How a list became another: the number of elements at the begin that are the same, and at the end.
     fn ends(old: &[Value], new: &[Value]) -> (usize, usize) {
-        let same = |a: &Value, b: &Value| niwaki_vm::value::identical(a, b);
-        let first = old.iter().zip(new).take_while(|(a, b)| same(a, b)).count();
-        let last = old.iter().rev().zip(new.iter().rev()).take_while(|(a, b)| same(a, b)).count();
+        let is_same = |(a, b): &(&Value, &Value)| niwaki_vm::value::identical(a, b);
+        let first = old.iter().zip(new).take_while(is_same).count();
+        let last = old.iter().rev().zip(new.iter().rev()).take_while(is_same).count();
         (first, last)
     }
 
@@ -378,8 +378,8 @@ mod tests {
         let loops = state.trace.loops(&task.program);
         let last = loops[0].parts[loops[0].parts.len() - 1];
         let mut fewer = all;
-        let gone = state.trace.moved(&task.program, last, state.trace.part_path(last), &Within::All);
-        take(&mut fewer, &task, &state.trace, &gone);
+        let dropped = state.trace.moved(&task.program, last, state.trace.part_path(last), &Within::All);
+        take(&mut fewer, &task, &state.trace, &dropped);
         assert_eq!(new(&fewer), [state.trace.part_path(last)]);
         // It emits nothing, so particles could not be told apart.
         assert!(new_parts(&task, &state, &fewer).is_empty());

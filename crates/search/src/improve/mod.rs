@@ -165,6 +165,12 @@ impl Improve {
         }
     }
 
+    /// The settings that arms use.
+    fn sizes(&self) -> arms::Sizes {
+        let (particles, regrow, power) = (self.particles, self.regrow, self.power);
+        arms::Sizes { particles, regrow, power, drawn_by: self.drawn_by.clone() }
+    }
+
     /// Makes a single search, which is a part of the checkpoint. Returns the best runs of its restarts, best first.
     fn single(
         &self,

@@ -57,8 +57,8 @@ pub(super) struct Stored<R> {
     tries: Tries,
 }
 
-/// What a search has learnt of its arms, for a search that goes on elsewhere: of each its step, the bits of its latest gain and its
-/// work.
+/// The experience of a search with its arms, for a search that goes on elsewhere: the step of each arm, the bits of its latest gain, and
+/// its work.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Learnt(Vec<(Step, Option<u64>, u64)>);
 
@@ -74,7 +74,7 @@ struct Tally {
 /// The tallies of the arms of a task, before their first rounds.
 fn tallies(improve: &Improve, task: &Task) -> Vec<Tally> {
     let tally = |arm| Tally { arm, gain: None, spent: 0 };
-    arms::suitable(improve, task).into_iter().map(tally).collect()
+    arms::suitable(&improve.sizes(), task).into_iter().map(tally).collect()
 }
 
 /// Notes a population that another has made: so much work, and no gain.
@@ -225,9 +225,13 @@ impl<'a> Search<'a> {
         let index = self.pick(&mut Reserved::Improve.stream(self.seed, u128::from(number), 0));
         let (arm, before) = (self.tallies[index].arm, self.best.log_score);
         let (work, parts) = match arm.form {
-            Form::Population(settings) => (self.population(settings(self.improve), may_continue)?, 0),
-            Form::Edits(kernel) => self.levels(&kernel(self.improve)?, number, may_continue)?,
-            Form::Chain(kernel, steps) => self.step(&kernel(self.improve)?, steps, number, may_continue)?,
+            Form::Population(settings) => {
+                (self.population(settings(&self.improve.sizes()), may_continue)?, 0)
+            }
+            Form::Edits(kernel) => self.levels(&kernel(&self.improve.sizes())?, number, may_continue)?,
+            Form::Chain(kernel, steps) => {
+                self.step(&kernel(&self.improve.sizes())?, steps, number, may_continue)?
+            }
         };
         let rate = (self.best.log_score - before).max(0.0) * self.slice as f64 / work.max(1) as f64;
         let mixed = |old: f64| FORGOTTEN * old + (1.0 - FORGOTTEN) * rate;
