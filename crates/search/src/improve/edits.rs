@@ -291,7 +291,9 @@ mod tests {
     }
 
     /// The two lists that a run returns.
-    fn lists(state: &State) -> [Vec<Value>; 2] {
+    type Lists = [Vec<Value>; 2];
+
+    fn lists(state: &State) -> Lists {
         let Value::Tuple(pair) = state.trace.result() else { panic!("a pair") };
         [0, 1].map(|at| match &pair.items()[at] {
             Value::List(list) => list.iter().cloned().collect(),
@@ -307,8 +309,8 @@ mod tests {
         (first, last)
     }
 
-    /// Edits of many runs that are possible: the lists before and after, and the number of choices before and after.
-    fn edited(text: &str, count: u64) -> Vec<([Vec<Value>; 2], [Vec<Value>; 2])> {
+    /// Edits of many runs that are possible: the lists before and after.
+    fn edited(text: &str, count: u64) -> Vec<(Lists, Lists)> {
         let task = task(text);
         let mut all = vec![];
         for seed in 0..count {
