@@ -99,6 +99,14 @@ LEAST: dict[str, tuple[dict[str, float], str]] = {
         {"digit": 0.8, "all": 0.98},
         "both digits can be read; at 2 % wrong pixels hardly a pipe lies beside them",
     ),
+    "long stems": (
+        {"quarter": 0.3},
+        "a stem that ends early leaves the last quarter empty; one that winds beside the target covers a third",
+    ),
+    "counted boards": (
+        {"board": 0.5, "number": 1.0},
+        "there are as many boards as in the target, and each is where one should be",
+    ),
 }
 
 

@@ -2,13 +2,27 @@
 
 from math import cos, pi, sin
 
-from niwaki import box, discrete_uniform, emit, flip, future, gaussian, model, rotation, uniform, vec
+from niwaki import (
+    box,
+    discrete_uniform,
+    emit,
+    flip,
+    future,
+    gaussian,
+    model,
+    normalize,
+    rotation,
+    sweep,
+    uniform,
+    vec,
+)
 from niwaki.gallery.building import NOWHERE, tower
 
 UP = vec(0.0, 1.0, 0.0)
 #: What is left free at each end of a wall, so that walls that meet at a corner do not intersect; scene units.
 JOINT = 0.3
 THICK = 0.6
+BOARD = 0.6
 
 
 @model
@@ -74,3 +88,29 @@ def wide_tower():
     """Build the tower from x = -2 to the right: wide ones match more of the target at once."""
     width = uniform(1.0, 8.0)
     emit(box((0.5 * width - 2.0, 2.0, 0.0), (width, 4.0, 1.0)))
+
+
+@model
+def stem():
+    """Draw a stem out of a pot: the number of its pieces is decided first, and each leans from the one before."""
+    half = uniform(0.5, 1.0)
+    emit(box((0.0, -0.5, 0.0), (3.0, 1.0, 3.0), bevel=0.0))
+    tip, ahead = vec(0.0, 0.4, 0.0), vec(0.0, 1.0, 0.0)
+    path = [tip]
+    for _ in range(discrete_uniform(2, 16)):
+        ahead = normalize(ahead + vec(gaussian(0.0, 0.2), 0.0, gaussian(0.0, 0.2)))
+        tip = tip + uniform(1.0, 2.0) * ahead
+        path = path + [tip]
+    emit(sweep([(-half, -half), (half, -half), (half, half), (-half, half)], path))
+
+
+@model
+def shelf():
+    """Build a shelf of a height: the number of its boards is decided first, then how their gaps share the height."""
+    width, height = uniform(4.0, 8.0), uniform(6.0, 20.0)
+    emit(box((0.0, 0.5 * BOARD, 0.0), (width, BOARD, 3.0), bevel=0.0))
+    gaps = [uniform(0.5, 4.0) for _ in range(discrete_uniform(1, 8))]
+    y, scale = 0.0, height / sum(gaps)
+    for gap in gaps:
+        y = y + scale * gap
+        emit(box((0.0, y + 0.5 * BOARD, 0.0), (width, BOARD, 3.0), bevel=0.0))

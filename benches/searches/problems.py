@@ -6,7 +6,7 @@ A target is given (one of the package's own) or made from a seed. Searches see t
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import niwaki as nw
@@ -124,6 +124,17 @@ def shelves(seed: int) -> Case:
     """A cone with shelves across it."""
     parts, across = targets.shelved(random_of(4, seed))
     return of_parts("shelved", parts, solid("shelves", across))
+
+
+def counted(seed: int) -> Case:
+    """Boards of a shelf, whose number counts, too."""
+    parts = targets.counted_boards(random_of(13, seed))
+    case = of_parts("counted_boards", parts)
+
+    def measure(scene: Scene) -> dict[str, float]:
+        return case.measure(scene) | {"number": float(len(scene) == len(parts))}
+
+    return replace(case, measure=measure)
 
 
 def of_view(score: nw.Score, parts: Mapping[str, measures.Mask]) -> Case:
@@ -383,6 +394,20 @@ PROBLEMS = (
         "shadows of nets",
         model("pipes"),
         digits,
+    ),
+    Problem(
+        "long stems",
+        "levels",
+        models.stem,
+        made(targets.long_stem, 12),
+        is_made=True,
+    ),
+    Problem(
+        "counted boards",
+        "levels",
+        models.shelf,
+        counted,
+        is_made=True,
     ),
 )
 

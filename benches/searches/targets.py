@@ -92,6 +92,29 @@ def sheathed(random: Random) -> tuple[Parts, Mesh]:
     return parts, loft([*outer, *inner[::-1]], closed=True)
 
 
+def long_stem(random: Random) -> Parts:
+    """A stem of about ten pieces that winds upwards out of a pot, in four quarters."""
+    height, radius = random.uniform(14.0, 18.0), random.uniform(0.7, 0.9)
+    swing, turn, phase = random.uniform(1.0, 2.0), random.uniform(1.0, 2.0), random.uniform(0.0, 2.0 * np.pi)
+    rise = np.linspace(0.0, 1.0, 41)
+    angle = phase + turn * np.pi * rise
+    x, z = (swing * (wave(angle) - wave(phase)) * np.minimum(1.0, 2.0 * rise) for wave in (np.cos, np.sin))
+    line = np.stack([x, height * rise, z], axis=1)
+    along = np.gradient(line, axis=0)
+    rings = [ring(point, ahead, radius, radius, 16) for point, ahead in zip(line, along, strict=True)]
+    quarters = {f"quarter {k + 1}": loft(rings[10 * k : 10 * k + 11]) for k in range(4)}
+    return {"pot": block((-1.5, -1.0, -1.5), (1.5, 0.0, 1.5))} | quarters
+
+
+def counted_boards(random: Random) -> Parts:
+    """The boards of a shelf, four to seven with gaps of any height, as wide as one another."""
+    half, y, parts = random.uniform(2.2, 3.8), 0.0, {}
+    for k in range(random.integers(4, 8)):
+        parts[f"board {k + 1}"] = block((-half, y, -1.5), (half, y + 0.6, 1.5))
+        y += 0.6 + random.uniform(0.8, 3.5)
+    return parts
+
+
 def shelved(random: Random) -> tuple[Parts, list[Mesh]]:
     """A cone that widens upwards, in quarters, and three shelves across it at different heights and sides."""
     wide, high = random.uniform(7.0, 9.0), random.uniform(16.0, 19.0)

@@ -302,13 +302,13 @@ class Round(NamedTuple):
     Attributes
     ----------
     step : str
-        The kind of step: "population", "restart", "regrow", "regrow more" or "move".
+        The kind of step: "population", "restart", "regrow", "regrow more", "move" or "levels".
     work : int
         The number of particle-steps, of proposals, and of shapes that proposals placed or removed.
     best : float
         The best log score after the round, nats.
     parts : int
-        The number of parts that were grown again and accepted.
+        The number of parts that were grown again and accepted, or of edits that were.
     """
 
     step: str
@@ -423,8 +423,9 @@ class ImproveInfo(Info):
             steps[-1] += self._at(0)
         if len(self.rounds) > 1:
             later = self.rounds[1:]
-            parts, moves, more = (
-                sum(each.parts for each in later),
+            parts, levels, moves, more = (
+                sum(each.parts for each in later if each.step != "levels"),
+                sum(each.parts for each in later if each.step == "levels"),
                 any(each.step == "move" for each in later),
                 sum(each.step == "population" for each in later),
             )
@@ -432,6 +433,7 @@ class ImproveInfo(Info):
             kinds += [f"{more} more population{'' if more == 1 else 's'}"] * (more > 0)
             kinds += [f"{self.restarts} restart{'' if self.restarts == 1 else 's'}"] * (self.restarts > 0)
             kinds += ["single choices moved"] * moves
+            kinds += [f"{levels} edit{'' if levels == 1 else 's'} of levels"] * (levels > 0)
             steps.append(", ".join(kinds) + self._at(-1))
         return "; ".join(steps)
 

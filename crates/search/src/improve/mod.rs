@@ -3,7 +3,8 @@
 //!
 //! 1. *Begin* (`start`): populations of particles, until one has a possible run. Its cost is the unit of effort.
 //! 2. *Rounds* (`rounds`) of a fifth of that unit. Each makes steps of one arm from the best run, and the arms (`arms`) share the
-//!    rounds by their latest gains: parts grown again by few or by many particles, moves of single choices, and a new population.
+//!    rounds by their latest gains: parts grown again by few or by many particles, moves of single choices, edits of
+//!    levels (`levels`, `edits`), and a new population.
 //! 3. *Restarts* (`course`): where no round has gained for long, the next begins from a fresh population. The best of all is kept.
 //! 4. *End* after the given number of rounds; or when the time is over; or, without both, when the search has spent a floor of work
 //!    and no round has gained for long. A search also ends where nothing can be better.
@@ -20,6 +21,8 @@ mod archive;
 mod arms;
 mod choose;
 mod course;
+mod edits;
+mod levels;
 mod look;
 mod niche;
 mod price;
@@ -162,6 +165,12 @@ impl Improve {
             }),
             Some(count) => archive::search(&improve, task, seed, count, outputs, watch),
         }
+    }
+
+    /// The settings that arms use.
+    fn sizes(&self) -> arms::Sizes {
+        let (particles, regrow, power) = (self.particles, self.regrow, self.power);
+        arms::Sizes { particles, regrow, power, drawn_by: self.drawn_by.clone() }
     }
 
     /// Makes a single search, which is a part of the checkpoint. Returns the best runs of its restarts, best first.

@@ -1,6 +1,7 @@
 //! The rounds of a search. Each makes steps of one arm from the best run, and the arms share the rounds by their gains.
 
 use super::arms::{self, Arm, Form, POPULATION, Step};
+use super::edits::Tries;
 use super::{Improve, population_seed};
 use niwaki_chain::kernel::Kernel;
 use niwaki_chain::leaf::Proposer;
@@ -53,10 +54,11 @@ pub(super) struct Stored<R> {
     slice: u64,
     populations: u64,
     learnt: Learnt,
+    tries: Tries,
 }
 
-/// What a search has learnt of its arms, for a search that goes on elsewhere: of each its step, the bits of its latest gain and its
-/// work.
+/// The experience of a search with its arms, for a search that goes on elsewhere: the step of each arm, the bits of its latest gain, and
+/// its work.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Learnt(Vec<(Step, Option<u64>, u64)>);
 
@@ -72,7 +74,7 @@ struct Tally {
 /// The tallies of the arms of a task, before their first rounds.
 fn tallies(improve: &Improve, task: &Task) -> Vec<Tally> {
     let tally = |arm| Tally { arm, gain: None, spent: 0 };
-    arms::suitable(improve, task).into_iter().map(tally).collect()
+    arms::suitable(&improve.sizes(), task).into_iter().map(tally).collect()
 }
 
 /// Notes a population that another has made: so much work, and no gain.
@@ -95,20 +97,22 @@ impl Learnt {
 
 /// The search while it runs.
 pub(super) struct Search<'a> {
-    task: &'a Task,
-    improve: &'a Improve,
-    seed: u64,
+    pub(super) task: &'a Task,
+    pub(super) improve: &'a Improve,
+    pub(super) seed: u64,
     /// The work of a round.
     pub slice: u64,
     /// The spreads of choices, for small steps; empty before the first round of moves.
-    spreads: HashMap<u128, f64>,
+    pub(super) spreads: HashMap<u128, f64>,
     pub best: Run,
     /// The state from which chains continue; absent only while a chain runs, and if the search was stopped at once.
-    state: Option<State>,
+    pub(super) state: Option<State>,
     /// Number of populations so far.
     populations: u64,
     /// The arms that suit the task.
     tallies: Vec<Tally>,
+    /// The edits so far.
+    pub(super) tries: Tries,
 }
 
 impl<'a> Search<'a> {
@@ -133,7 +137,18 @@ impl<'a> Search<'a> {
         let mut tallies = tallies(improve, task);
         // The first population has shown the gain of populations.
         note_population(&mut tallies, unit);
-        Ok(Search { task, improve, seed, slice, spreads, best, state, populations, tallies })
+        Ok(Search {
+            task,
+            improve,
+            seed,
+            slice,
+            spreads,
+            best,
+            state,
+            populations,
+            tallies,
+            tries: Tries::default(),
+        })
     }
 
     /// A search from a run and a chain's state at it, with rounds of this work, and with what another search has learnt.
@@ -150,7 +165,18 @@ impl<'a> Search<'a> {
         // Whoever starts such a search makes populations elsewhere.
         note_population(&mut tallies, slice * PER_POPULATION);
         learnt.inspect(|learnt| learnt.give(&mut tallies));
-        Search { task, improve, seed, slice, spreads, best, state: Some(state), populations: 1, tallies }
+        Search {
+            task,
+            improve,
+            seed,
+            slice,
+            spreads,
+            best,
+            state: Some(state),
+            populations: 1,
+            tallies,
+            tries: Tries::default(),
+        }
     }
 
     /// The gains that the search has learnt.
@@ -167,6 +193,7 @@ impl<'a> Search<'a> {
             slice: self.slice,
             populations: self.populations,
             learnt: self.learnt(),
+            tries: self.tries,
         })
     }
 
@@ -180,12 +207,12 @@ impl<'a> Search<'a> {
         seed: u64,
         stored: Stored<Run>,
     ) -> std::result::Result<Search<'a>, Failure> {
-        let Stored { best, state, slice, populations, learnt } = stored;
+        let Stored { best, state, slice, populations, learnt, tries } = stored;
         let state = Some(state.state(task)?);
         let (best, spreads) = (with_value(task, best)?, HashMap::new());
         let mut tallies = tallies(improve, task);
         learnt.give(&mut tallies);
-        Ok(Search { task, improve, seed, slice, spreads, best, state, populations, tallies })
+        Ok(Search { task, improve, seed, slice, spreads, best, state, populations, tallies, tries })
     }
 
     /// Makes a round; all rounds have about equal work. Returns its kind of step, its work, and how many parts were grown again and kept.
@@ -198,8 +225,13 @@ impl<'a> Search<'a> {
         let index = self.pick(&mut Reserved::Improve.stream(self.seed, u128::from(number), 0));
         let (arm, before) = (self.tallies[index].arm, self.best.log_score);
         let (work, parts) = match arm.form {
-            Form::Population(settings) => (self.population(settings(self.improve), may_continue)?, 0),
-            Form::Chain(kernel, steps) => self.step(&kernel(self.improve)?, steps, number, may_continue)?,
+            Form::Population(settings) => {
+                (self.population(settings(&self.improve.sizes()), may_continue)?, 0)
+            }
+            Form::Edits(kernel) => self.levels(&kernel(&self.improve.sizes())?, number, may_continue)?,
+            Form::Chain(kernel, steps) => {
+                self.step(&kernel(&self.improve.sizes())?, steps, number, may_continue)?
+            }
         };
         let rate = (self.best.log_score - before).max(0.0) * self.slice as f64 / work.max(1) as f64;
         let mixed = |old: f64| FORGOTTEN * old + (1.0 - FORGOTTEN) * rate;
@@ -217,8 +249,8 @@ impl<'a> Search<'a> {
         let gains: Vec<f64> = self.tallies.iter().filter_map(|tally| tally.gain).collect();
         let u = rng.uniform();
         if gains.iter().all(|gain| *gain <= 0.0) || u < EVEN {
-            let least = (0..gains.len()).min_by_key(|index| self.tallies[*index].spent);
-            return least.unwrap_or(0);
+            let share = |tally: &Tally| tally.spent * tally.arm.rarity;
+            return (0..gains.len()).min_by_key(|index| share(&self.tallies[*index])).unwrap_or(0);
         }
         index(&gains, (u - EVEN) / (1.0 - EVEN))
     }
@@ -248,6 +280,15 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// Makes what a kernel needs before its first round.
+    pub(super) fn prepare(&mut self, kernel: &Kernel) -> std::result::Result<(), Failure> {
+        let drifts = kernel.any(&|kernel| matches!(kernel, Kernel::Leaf(Proposer::Drift(_))));
+        if drifts && self.spreads.is_empty() {
+            self.spreads = spreads(self.task, self.seed)?;
+        }
+        Ok(())
+    }
+
     /// Makes steps of a chain from the present run, `steps` between two looks at its work. Returns their work and how many parts were
     /// grown again and kept.
     fn step(
@@ -259,10 +300,7 @@ impl<'a> Search<'a> {
     ) -> std::result::Result<(u64, u64), Failure> {
         let settings = ChainSettings { seed: self.seed, thin: 0, ..ChainSettings::default() };
         let plan = Plan::new(kernel)?;
-        let drifts = kernel.any(&|kernel| matches!(kernel, Kernel::Leaf(Proposer::Drift(_))));
-        if drifts && self.spreads.is_empty() {
-            self.spreads = spreads(self.task, self.seed)?;
-        }
+        self.prepare(kernel)?;
         let Some(state) = self.state.take() else { return Ok((self.slice, 0)) };
         let mut chain: Chain = Chain::at(self.task, &settings, number, plan, state, &self.spreads)?;
         chain.restrict(self.improve.power, None);

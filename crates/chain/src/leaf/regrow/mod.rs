@@ -78,6 +78,12 @@ pub struct Regrow {
 }
 
 impl Regrow {
+    /// An optimising move of the activations whose paths have these hashes. No choice is turned.
+    pub fn best_of(paths: Vec<u128>, particles: usize, proposal: Option<Arc<Proposal>>) -> Regrow {
+        let (pick, selection) = (Pick::Paths(paths), Selection::default());
+        Regrow { particles, turn: 0.0, pick, best: true, proposal, selection }
+    }
+
     /// Ranges of its settings.
     pub(crate) const RANGES: Ranges = &[("particles", whole(2)), ("turn", SHARE)];
 

@@ -40,6 +40,9 @@ pub enum Pick {
     Choice,
     /// By name: uniform among the outermost activations whose addresses match one of these patterns.
     Parts(Vec<String>),
+    /// By path: uniform among the activations whose paths have these hashes.
+    #[serde(skip)]
+    Paths(Vec<u128>),
 }
 
 /// A part and its choices that may change.
@@ -110,6 +113,17 @@ impl Pick {
                     return None;
                 }
                 let sized = &parts[matching[even(matching.len(), rng)]];
+                Some(Picked { part: sized.part, size: sized.size, how: How::Even })
+            }
+            Pick::Paths(paths) => {
+                let is_there = |sized: &&Sized| {
+                    sized.size > 0 && !sized.part.is_onward() && paths.contains(&trace.part_path(sized.part))
+                };
+                let there: Vec<&Sized> = parts.iter().filter(is_there).collect();
+                if there.is_empty() {
+                    return None;
+                }
+                let sized = there[even(there.len(), rng)];
                 Some(Picked { part: sized.part, size: sized.size, how: How::Even })
             }
             Pick::Size => {

@@ -3,38 +3,58 @@
 //! An arm is a constant in a file here, with its name in reports, the tasks that it suits, and the form of its steps. A new one is
 //! such a file and a row of [`ARMS`].
 
+mod levels;
 mod moves;
 mod population;
 mod regrow;
 
-use super::Improve;
 use niwaki_chain::kernel::Kernel;
 use niwaki_particles::Settings;
+use niwaki_propose::proposal::Proposal;
 use niwaki_run::Task;
 use niwaki_vm::fault::Fault;
 use serde::{Deserialize, Deserializer, Serialize};
+use std::sync::Arc;
 
 pub(super) use population::POPULATION;
 
 /// All arms. Each that suits the task has the next of the first rounds, in this order.
-const ARMS: [&Arm; 4] = [&regrow::FEW, &moves::MOVES, &regrow::MANY, &population::POPULATION];
+const ARMS: [&Arm; 5] =
+    [&regrow::FEW, &moves::MOVES, &regrow::MANY, &levels::LEVELS, &population::POPULATION];
+
+/// The settings of a search that its arms use.
+pub(super) struct Sizes {
+    /// Particles of a population.
+    pub particles: usize,
+    /// Particles that grow a part again.
+    pub regrow: usize,
+    /// The power of the score.
+    pub power: f64,
+    /// The proposal that draws choices in place of the prior.
+    pub drawn_by: Option<Arc<Proposal>>,
+}
 
 /// An arm.
 pub(super) struct Arm {
     /// The name in reports.
     pub step: Step,
     /// Whether it suits a task.
-    pub suits: fn(&Improve, &Task) -> bool,
+    pub suits: fn(&Sizes, &Task) -> bool,
     /// The form of its steps.
     pub form: Form,
+    /// In rounds that are shared evenly it has this many times less work than an arm with 1: for arms that gain much on some tasks, and
+    /// nothing on most.
+    pub rarity: u64,
 }
 
 /// The form of the steps of an arm. The seed of a population, and the work of a round, are given by the search.
 pub(super) enum Form {
     /// A population from the start.
-    Population(fn(&Improve) -> Settings),
+    Population(fn(&Sizes) -> Settings),
     /// A chain from the best run: its kernel, and the number of proposals between two looks at its work.
-    Chain(fn(&Improve) -> Result<Kernel, Fault>, u64),
+    Chain(fn(&Sizes) -> Result<Kernel, Fault>, u64),
+    /// Edits of the best run, each improved by a chain with this kernel.
+    Edits(fn(&Sizes) -> Result<Kernel, Fault>),
 }
 
 /// A kind of step, by its name in reports.
@@ -60,8 +80,8 @@ impl<'de> Deserialize<'de> for Step {
 }
 
 /// The arms that suit a task.
-pub(super) fn suitable(improve: &Improve, task: &Task) -> Vec<&'static Arm> {
-    ARMS.into_iter().filter(|arm| (arm.suits)(improve, task)).collect()
+pub(super) fn suitable(sizes: &Sizes, task: &Task) -> Vec<&'static Arm> {
+    ARMS.into_iter().filter(|arm| (arm.suits)(sizes, task)).collect()
 }
 
 /// A leaf of a kernel from its settings.

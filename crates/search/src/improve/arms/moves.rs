@@ -1,13 +1,14 @@
 //! Moves of single choices, and calls drawn anew.
 
-use super::{Arm, Form, Improve, Step, leaf};
+use super::{Arm, Form, Sizes, Step, leaf};
 use niwaki_chain::kernel::Kernel;
 use niwaki_vm::fault::Fault;
 use serde_json::json;
 
-pub(super) const MOVES: Arm = Arm { step: Step("move"), suits: |_, _| true, form: Form::Chain(kernel, 32) };
+pub(super) const MOVES: Arm =
+    Arm { step: Step("move"), suits: |_, _| true, form: Form::Chain(kernel, 32), rarity: 1 };
 
-fn kernel(_: &Improve) -> Result<Kernel, Fault> {
+pub(super) fn kernel(_: &Sizes) -> Result<Kernel, Fault> {
     let drift = |step| leaf("drift", json!({"step": step, "target": 0.44}));
     Ok(Kernel::Mixture(vec![
         (4.0, Kernel::PRIOR),

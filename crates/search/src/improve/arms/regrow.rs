@@ -1,7 +1,7 @@
 //! Parts of the best run, grown again by few or by many particles. The parts of a run share calls of memoised functions, so no part of
 //! a model with these can be grown again.
 
-use super::{Arm, Form, Improve, Step, leaf};
+use super::{Arm, Form, Sizes, Step, leaf};
 use niwaki_chain::kernel::Kernel;
 use niwaki_run::Task;
 use niwaki_vm::fault::Fault;
@@ -15,23 +15,25 @@ const MORE: usize = 5;
 pub(super) const FEW: Arm = Arm {
     step: Step("regrow"),
     suits: has_parts,
-    form: Form::Chain(|improve| kernel(improve, improve.regrow), 1),
+    form: Form::Chain(|sizes| kernel(sizes, sizes.regrow), 1),
+    rarity: 1,
 };
 
 pub(super) const MANY: Arm = Arm {
     step: Step("regrow more"),
     suits: has_parts,
-    form: Form::Chain(|improve| kernel(improve, MORE * improve.regrow), 1),
+    form: Form::Chain(|sizes| kernel(sizes, MORE * sizes.regrow), 1),
+    rarity: 1,
 };
 
-fn has_parts(_: &Improve, task: &Task) -> bool {
+fn has_parts(_: &Sizes, task: &Task) -> bool {
     !task.program.memoises()
 }
 
-fn kernel(improve: &Improve, particles: usize) -> Result<Kernel, Fault> {
+fn kernel(sizes: &Sizes, particles: usize) -> Result<Kernel, Fault> {
     let settings = json!({"particles": particles, "turn": TURN, "pick": "size", "best": true});
     let plain = leaf("regrow", settings)?;
-    Ok(match &improve.drawn_by {
+    Ok(match &sizes.drawn_by {
         None => plain,
         Some(proposal) => plain.drawn_by(proposal.clone()),
     })

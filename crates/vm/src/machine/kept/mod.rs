@@ -33,6 +33,7 @@ mod changes;
 mod entry;
 pub mod inspect;
 mod journal;
+pub mod levels;
 mod loops;
 mod memo;
 pub mod part;

@@ -30,6 +30,11 @@ impl Part {
     /// The whole run.
     pub const WHOLE: Part = Part { node: NodeId(0), onward: false };
 
+    /// An activation with all below it.
+    pub(super) fn of(node: NodeId) -> Part {
+        Part { node, onward: false }
+    }
+
     /// Whether the part consists of the iterations of a loop from a given one on.
     pub fn is_onward(self) -> bool {
         self.onward
@@ -75,7 +80,7 @@ impl<S: Scalar> Trace<S> {
                     first.into_iter().for_each(|node| each(Piece::Part(Part { node: *node, onward: true })));
                 }
                 kind if kind.makes_activation() => {
-                    each(Piece::Part(Part { node: NodeId(slot.held), onward: false }));
+                    each(Piece::Part(Part::of(NodeId(slot.held))));
                 }
                 _ => {}
             }
@@ -96,7 +101,7 @@ impl<S: Scalar> Trace<S> {
 
     /// The activation of a choice, as a part.
     pub fn part_of(&self, choice: usize) -> Part {
-        Part { node: self.activation(choice, 0), onward: false }
+        Part::of(self.activation(choice, 0))
     }
 
     /// The hash of the path of a part's first activation: the same in every run that reaches it with the same

@@ -1,0 +1,389 @@
+//! Edits of a run: a discrete choice has another value, a loop has an iteration more or less, a recursion a level more or less. All
+//! else keeps its values, by address or moved with the level that it belongs to; what is new is drawn.
+
+use super::structure::below;
+use niwaki_chain::walk::state::State;
+use niwaki_math::{RngCore, Stream, StreamKey};
+use niwaki_run::fresh::Fresh;
+use niwaki_run::weights::index;
+use niwaki_run::{Failure, Task};
+use niwaki_vm::machine::kept::levels::{Iterations, Moved, Within};
+use niwaki_vm::machine::kept::part::Part;
+use niwaki_vm::machine::kept::{Change, Trace};
+use niwaki_vm::value::Value;
+use serde::{Deserialize, Serialize};
+use std::collections::{HashMap, HashSet};
+
+/// The probability that levels are added or removed at the end of a loop, and not at any place.
+const AT_END: f64 = 0.5;
+/// The probability that a new level has the values of the one beside it; of a recursion, also those of its other calls.
+const COPIED: f64 = 0.5;
+/// The probability that a whole number moves by one, and is not drawn from its prior.
+const BY_ONE: f64 = 0.75;
+
+/// The values of a run by address.
+pub(super) type Values = HashMap<u128, Value>;
+
+/// The form of an edit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Form {
+    /// A whole number is turned.
+    Count,
+    /// A truth value is turned.
+    Turn,
+    /// The iterations of a loop move by one.
+    Shift,
+    /// A recursion has a level more or less.
+    Level,
+}
+
+impl Form {
+    const ALL: [Form; 4] = [Form::Count, Form::Turn, Form::Shift, Form::Level];
+}
+
+/// How many edits of each form were made, and how many of these were kept.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Tries([(u64, u64); Form::ALL.len()]);
+
+impl Tries {
+    /// Notes an edit.
+    pub fn note(&mut self, form: Form, is_kept: bool) {
+        let (all, kept) = &mut self.0[form as usize];
+        *all += 1;
+        *kept += u64::from(is_kept);
+    }
+
+    /// The share of a form's edits that is expected to be kept.
+    fn share(&self, form: Form) -> f64 {
+        let (all, kept) = self.0[form as usize];
+        (kept + 1) as f64 / (all + 2) as f64
+    }
+}
+
+/// An edit of a run.
+pub(super) struct Edit {
+    /// The values of the edited run, as far as they are known.
+    pub values: Values,
+    pub form: Form,
+    /// The number of runs that were made to find the values.
+    pub runs: u64,
+}
+
+/// Draws an edit of a run, of a form whose edits were kept. `None` if the run has nothing to edit.
+///
+/// # Errors
+/// A fault of the program that makes no run invalid.
+pub(super) fn draw(
+    task: &Task,
+    state: &State,
+    tries: &Tries,
+    rng: &mut Stream,
+) -> Result<Option<Edit>, Failure> {
+    let (trace, program) = (&state.trace, &*task.program);
+    let of = |is: fn(&Value) -> bool| -> Vec<usize> {
+        trace.numbers().filter(|n| is(trace.choice(program, *n).0)).collect()
+    };
+    let counts = of(|value| matches!(value, Value::Int(_)));
+    let truths = of(|value| matches!(value, Value::Bool(_)));
+    let loops = trace.loops(program);
+    let has_choices = |levels: &&Iterations| {
+        levels.parts.len() > 1 && !trace.moved(program, levels.parts[0], 0, &Within::All).choices.is_empty()
+    };
+    let shiftable: Vec<&Iterations> = loops.iter().filter(has_choices).collect();
+    let recursions = trace.recursions(program);
+    let is_there = |form: &Form| match form {
+        Form::Count => !counts.is_empty(),
+        Form::Turn => !truths.is_empty(),
+        Form::Shift => !shiftable.is_empty(),
+        Form::Level => !recursions.is_empty(),
+    };
+    let forms: Vec<Form> = Form::ALL.into_iter().filter(is_there).collect();
+    if forms.is_empty() {
+        return Ok(None);
+    }
+    let shares: Vec<f64> = forms.iter().map(|form| tries.share(*form)).collect();
+    let form = forms[index(&shares, rng.uniform())];
+    let edit = |values, runs| Ok(Some(Edit { values, form, runs }));
+    let mut values: Values = state.choices(program).collect();
+    match form {
+        Form::Count | Form::Turn => {
+            let discrete = if form == Form::Count { counts } else { truths };
+            let choice = discrete[below(rng, discrete.len())];
+            let address = trace.address(program, choice);
+            turn(&mut values, address, rng);
+            // Loops that are longer or shorter in the turned run, where a value that is drawn stays.
+            let Some(turned) = bare_run(task, &values, rng)? else { return edit(values, 1) };
+            let place = turned.numbers().find(|n| turned.address(program, *n) == address);
+            values.extend(place.map(|n| (address, turned.choice(program, n).0.clone())));
+            let lengths: HashMap<u128, usize> =
+                turned.loops(program).iter().map(|levels| (levels.path(), levels.parts.len())).collect();
+            let changed: Vec<(&Iterations, usize)> = loops
+                .iter()
+                .filter_map(|levels| {
+                    let now = *lengths.get(&levels.path())?;
+                    (now != levels.parts.len()).then_some((levels, now))
+                })
+                .collect();
+            if rng.uniform() >= AT_END {
+                let (u, copied) = (rng.uniform(), rng.uniform() < COPIED);
+                for (levels, now) in changed {
+                    let by = now as isize - levels.parts.len() as isize;
+                    shift(&mut values, task, trace, levels, u, by, copied);
+                }
+            }
+            edit(values, 1)
+        }
+        Form::Shift => {
+            let levels = shiftable[below(rng, shiftable.len())];
+            let by = if rng.uniform() < 0.5 { 1 } else { -1 };
+            let (u, copied) = (rng.uniform(), rng.uniform() < COPIED);
+            shift(&mut values, task, trace, levels, u, by, copied);
+            edit(values, 0)
+        }
+        Form::Level => {
+            let pair = &recursions[below(rng, recursions.len())];
+            let (above, below) = (pair.above, pair.below);
+            let (from, to) = (trace.part_path(below), trace.part_path(above));
+            let moved = |part, to, within: &Within| trace.moved(program, part, to, within);
+            if rng.uniform() < 0.5 {
+                // The level below takes the place of the one above it.
+                let mut up = moved(below, to, &Within::All);
+                take(&mut values, task, trace, &moved(above, to, &Within::All));
+                put(&mut values, task, trace, &mut up);
+            } else {
+                // The level is there twice, with or without what else it calls.
+                let within =
+                    if rng.uniform() < COPIED { Within::Without(below) } else { Within::Between(below) };
+                let mut twice = moved(above, from, &within);
+                let Some(place) = twice.below else { return edit(values, 0) };
+                let mut down = moved(below, place, &Within::All);
+                take(&mut values, task, trace, &moved(below, from, &Within::All));
+                put(&mut values, task, trace, &mut twice);
+                put(&mut values, task, trace, &mut down);
+            }
+            edit(values, 0)
+        }
+    }
+}
+
+/// Gives a discrete choice another value, or leaves it to the prior.
+fn turn(values: &mut Values, address: u128, rng: &mut Stream) {
+    let by = if rng.uniform() < 0.5 { 1 } else { -1 };
+    let is_near = rng.uniform() < BY_ONE;
+    match values.get(&address) {
+        Some(Value::Bool(truth)) => values.insert(address, Value::Bool(!truth)),
+        Some(Value::Int(number)) if is_near => {
+            let turned = Value::Int(number.saturating_add(by));
+            values.insert(address, turned)
+        }
+        _ => values.remove(&address),
+    };
+}
+
+/// Adds `by` iterations to a loop at the place `u`, a share of its length, and moves those after it; or removes as many. With
+/// `copied` a new one has the values of the one before it, or of the one after it at the begin; else they are drawn.
+fn shift(
+    values: &mut Values,
+    task: &Task,
+    trace: &Trace,
+    levels: &Iterations,
+    u: f64,
+    by: isize,
+    copied: bool,
+) {
+    let program = &*task.program;
+    let (count, size) = (levels.parts.len(), by.unsigned_abs());
+    let moved =
+        |from: usize, to: usize| trace.moved(program, levels.parts[from], levels.path_of(to), &Within::All);
+    let place = |places: usize| ((u * places as f64) as usize).min(places.saturating_sub(1));
+    let mut after = vec![];
+    let first = if by > 0 { place(count + 1) } else { place((count + 1).saturating_sub(size)) };
+    for number in first..count {
+        take(values, task, trace, &moved(number, number));
+        let to = number as isize + by;
+        if to >= first as isize {
+            after.push(moved(number, to as usize));
+        }
+    }
+    // The iteration before the place, or else the one after it.
+    let model = first.saturating_sub(1).min(count.saturating_sub(1));
+    if by > 0 && count > 0 && copied {
+        (first..first + size).for_each(|number| after.push(moved(model, number)));
+    }
+    after.iter_mut().for_each(|moved| put(values, task, trace, moved));
+}
+
+/// Removes the choices of a part that is at its place.
+fn take(values: &mut Values, task: &Task, trace: &Trace, here: &Moved) {
+    here.choices.iter().for_each(|(_, n)| {
+        values.remove(&trace.address(&task.program, *n));
+    });
+}
+
+/// Adds the choices of a part that is at another place.
+fn put(values: &mut Values, task: &Task, trace: &Trace, there: &mut Moved) {
+    let value = |n: usize| trace.choice(&task.program, n).0.clone();
+    values.extend(there.choices.drain(..).map(|(address, n)| (address, value(n))));
+}
+
+/// A run of the program with these values, without its scene. `None` if it is impossible or invalid.
+fn bare_run(task: &Task, values: &Values, rng: &mut Stream) -> Result<Option<Trace>, Failure> {
+    let key = StreamKey::new(rng.next_u64(), 0, 0);
+    let mut answers = Fresh::of(key, Some(values), &*task.hosts);
+    match task.begin(&mut task.machine(), &mut answers) {
+        Ok((_, Change::Impossible)) => Ok(None),
+        Ok((mut trace, _)) => {
+            trace.commit(&task.program);
+            Ok(Some(trace))
+        }
+        Err(met) if met.is_invalid() => Ok(None),
+        Err(met) => Err(met.into()),
+    }
+}
+
+/// The paths of the parts of an edited run that are new and have a scene of their own, by which particles can be told apart.
+pub(super) fn new_parts(task: &Task, state: &State, values: &Values) -> Vec<u128> {
+    let (trace, program) = (&state.trace, &*task.program);
+    let known: HashSet<u128> = values.keys().copied().collect();
+    let parts = trace.parts_without(program, &|address| known.contains(&address));
+    let emits = |part: &Part| !trace.emits_of(program, *part).is_empty();
+    parts.into_iter().filter(emits).map(|part| trace.part_path(part)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use niwaki_chain::walk::streams::Streams;
+    use niwaki_vm::core::parse::parse;
+    use niwaki_vm::passes::compile;
+    use std::sync::Arc;
+
+    /// A loop whose number is drawn, twice.
+    const COUNTED: &str = r#"(module (fn "m" (params)
+        (set $n (sample (dist discrete_uniform 1 6)))
+        (set $xs (list)) (for $i (range $n) (body (set $xs (append $xs (sample (dist uniform 0.0 1.0))))))
+        (set $ys (list)) (for $i (range $n) (body (set $ys (append $ys (sample (dist uniform 0.0 1.0))))))
+        (return (tuple $xs $ys))) (entry "m"))"#;
+    /// A loop that a choice in an iteration ends, where iterations differ in their choices.
+    const STOPPED: &str = r#"(module (fn "m" (params)
+        (set $xs (list))
+        (for $i (range 9) (body
+            (if (sample (dist bernoulli 0.5))
+                (then (set $x (sample (dist uniform 0.0 1.0)))) (else (set $x (sample (dist gaussian 5.0 1.0)))))
+            (set $xs (add $xs (list $x)))
+            (if (sample (dist bernoulli 0.25)) (then (break)) (else))))
+        (return (tuple $xs (list)))) (entry "m"))"#;
+    /// A recursion, with a future beside each level.
+    const RECURSIVE: &str = r#"(module
+        (fn "m" (params) (return (tuple (call "link" 0) (list))))
+        (fn "link" (params $i)
+            (set $x (sample (dist uniform 0.0 1.0)))
+            (do (future "side" $x))
+            (if (and (lt $i 9) (sample (dist bernoulli 0.7)))
+                (then (return (add (list $x) (call "link" (add $i 1))))) (else))
+            (return (list $x)))
+        (fn "side" (params $x)
+            (if (sample (dist bernoulli 0.5)) (then (do (sample (dist uniform 0.0 1.0)))) (else)))
+        (entry "m"))"#;
+
+    fn task(text: &str) -> Task {
+        Task::new(Arc::new(compile(&parse(text).expect("core form"), vec![]).expect("a program")))
+    }
+
+    /// The two lists that a run returns.
+    type Lists = [Vec<Value>; 2];
+
+    fn lists(state: &State) -> Lists {
+        let Value::Tuple(pair) = state.trace.result() else { panic!("a pair") };
+        [0, 1].map(|at| match &pair.items()[at] {
+            Value::List(list) => list.iter().cloned().collect(),
+            _ => panic!("a list"),
+        })
+    }
+
+    /// How a list became another: the number of elements at the begin that are the same, and at the end.
+    fn ends(old: &[Value], new: &[Value]) -> (usize, usize) {
+        let is_same = |(a, b): &(&Value, &Value)| niwaki_vm::value::identical(a, b);
+        let first = old.iter().zip(new).take_while(is_same).count();
+        let last = old.iter().rev().zip(new.iter().rev()).take_while(is_same).count();
+        (first, last)
+    }
+
+    /// Edits of many runs that are possible: the lists before and after.
+    fn edited(text: &str, count: u64) -> Vec<(Lists, Lists)> {
+        let task = task(text);
+        let mut all = vec![];
+        for seed in 0..count {
+            let (state, _) = State::start(&task, Streams::new(seed, 0), 1, None).expect("a run");
+            let mut rng = Stream::new(seed, 1, 2, 3);
+            let edit = draw(&task, &state, &Tries::default(), &mut rng).expect("no fault").expect("an edit");
+            match State::start(&task, Streams::new(seed, 1), 1, Some(&edit.values)) {
+                Ok((after, _)) => all.push((lists(&state), lists(&after))),
+                Err(Failure::NoStart { .. }) => {}
+                Err(_) => panic!("a fault"),
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn a_turned_count_holds_what_stands_and_moves_what_is_behind() {
+        let (mut inside, mut at_end) = (0, 0);
+        for (old, new) in edited(COUNTED, 600) {
+            if old[0].len() == new[0].len() {
+                continue;
+            }
+            assert_eq!(new[0].len(), new[1].len());
+            let [x, y] = [0, 1].map(|at| ends(&old[at], &new[at]));
+            let kept = old[0].len().min(new[0].len());
+            // Both loops have changed at one place.
+            assert!((0..=kept).any(|at| at <= x.0.min(y.0) && kept - at <= x.1.min(y.1)), "{old:?} {new:?}");
+            if x.0 == kept { at_end += 1 } else { inside += 1 }
+        }
+        assert!(inside > 40 && at_end > 40, "{inside} {at_end}");
+    }
+
+    #[test]
+    fn iterations_move_with_all_their_choices() {
+        let (mut longer, mut shorter) = (0, 0);
+        for (old, new) in edited(STOPPED, 600) {
+            let (first, last) = ends(&old[0], &new[0]);
+            let (before, after) = (old[0].len(), new[0].len());
+            longer += usize::from(after == before + 1 && first + last >= before && first < before);
+            shorter += usize::from(after + 1 == before && first + last >= after && first < after);
+        }
+        assert!(longer > 20 && shorter > 20, "{longer} {shorter}");
+    }
+
+    #[test]
+    fn a_recursion_has_a_level_more_or_less() {
+        let (mut longer, mut shorter) = (0, 0);
+        for (old, new) in edited(RECURSIVE, 600) {
+            let (first, last) = ends(&old[0], &new[0]);
+            let (before, after) = (old[0].len(), new[0].len());
+            longer += usize::from(after == before + 1 && first + last >= before && last > 0);
+            shorter += usize::from(after + 1 == before && first + last >= after && last > 0);
+        }
+        assert!(longer > 40 && shorter > 40, "{longer} {shorter}");
+    }
+
+    #[test]
+    fn parts_are_new_where_no_choice_is_known() {
+        let task = task(COUNTED);
+        let (state, _) = State::start(&task, Streams::new(3, 0), 1, None).expect("a run");
+        let all: Values = state.choices(&task.program).collect();
+        let new = |known: &Values| -> Vec<u128> {
+            let parts = state.trace.parts_without(&task.program, &|address| known.contains_key(&address));
+            parts.into_iter().map(|part| state.trace.part_path(part)).collect()
+        };
+        assert!(new(&all).is_empty());
+        let loops = state.trace.loops(&task.program);
+        let last = loops[0].parts[loops[0].parts.len() - 1];
+        let mut fewer = all;
+        let dropped = state.trace.moved(&task.program, last, state.trace.part_path(last), &Within::All);
+        take(&mut fewer, &task, &state.trace, &dropped);
+        assert_eq!(new(&fewer), [state.trace.part_path(last)]);
+        // It emits nothing, so particles could not be told apart.
+        assert!(new_parts(&task, &state, &fewer).is_empty());
+    }
+}
