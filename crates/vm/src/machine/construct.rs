@@ -9,7 +9,7 @@ use super::state::State;
 use crate::builtins;
 use crate::code::Op;
 use crate::fault::Fault;
-use crate::value::{Closure, Dict, Record, Value, index, iter_get, iter_len};
+use crate::value::{Closure, Dict, Record, Tuple, Value, index, iter_get, iter_len};
 use niwaki_math::Scalar;
 use std::cmp::Ordering;
 use std::sync::Arc;
@@ -36,8 +36,8 @@ impl<S: Scalar> Machine<'_, S> {
                 (to, Value::list(self.buffer.drain(..).collect()))
             }
             Op::Tuple { to, args } => {
-                gather!(args);
-                (to, Value::tuple(self.buffer.drain(..).collect()))
+                let items = f.operands[args.range()].iter();
+                (to, Value::Tuple(Tuple::of(items.map(|o| r.get(state, &self.scratch, *o).clone()))))
             }
             Op::Dict { to, args } => {
                 gather!(args);

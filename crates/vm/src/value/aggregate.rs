@@ -80,6 +80,23 @@ impl<S: Scalar> Tuple<S> {
         Arc::ptr_eq(&self.0, &other.0)
     }
 
+    /// A tuple of these elements. A short one takes one allocation.
+    #[inline]
+    pub fn of(mut items: impl ExactSizeIterator<Item = Value<S>>) -> Tuple<S> {
+        macro_rules! place {
+            ($body:ident) => {
+                TupleBody::$body(std::array::from_fn(|_| items.next().unwrap_or_default()))
+            };
+        }
+        Tuple(Arc::new(match items.len() {
+            1 => place!(Single),
+            2 => place!(Two),
+            3 => place!(Three),
+            4 => place!(Four),
+            _ => TupleBody::Other(items.collect()),
+        }))
+    }
+
     /// A tuple of two elements.
     pub fn pair(first: Value<S>, second: Value<S>) -> Tuple<S> {
         Tuple(Arc::new(TupleBody::Two([first, second])))
@@ -88,22 +105,7 @@ impl<S: Scalar> Tuple<S> {
 
 impl<S: Scalar> From<Vec<Value<S>>> for Tuple<S> {
     fn from(items: Vec<Value<S>>) -> Tuple<S> {
-        let items = match <[Value<S>; 2]>::try_from(items) {
-            Ok(two) => return Tuple(Arc::new(TupleBody::Two(two))),
-            Err(items) => items,
-        };
-        let items = match <[Value<S>; 1]>::try_from(items) {
-            Ok(single) => return Tuple(Arc::new(TupleBody::Single(single))),
-            Err(items) => items,
-        };
-        let items = match <[Value<S>; 3]>::try_from(items) {
-            Ok(three) => return Tuple(Arc::new(TupleBody::Three(three))),
-            Err(items) => items,
-        };
-        Tuple(Arc::new(match <[Value<S>; 4]>::try_from(items) {
-            Ok(four) => TupleBody::Four(four),
-            Err(items) => TupleBody::Other(items),
-        }))
+        if items.len() > 4 { Tuple(Arc::new(TupleBody::Other(items))) } else { Tuple::of(items.into_iter()) }
     }
 }
 
