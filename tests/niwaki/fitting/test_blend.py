@@ -308,7 +308,7 @@ def test_what_blender_says_of_a_file_reaches_the_person(place, tmp_path):
     ):
         nw.blend(place, "A")
     about.write_text(json.dumps({"unloadable": "File format is not supported"}))
-    with pytest.raises(InputError, match=r"(?s)Blender does not open `box.blend`.*not supported"):
+    with pytest.raises(InputError, match=r"(?s)`box.blend` does not open in Blender.*not supported"):
         nw.blend(place)
     os.remove(about)
     with pytest.raises(InputError, match="it ended with code 1: error while loading shared libraries"):

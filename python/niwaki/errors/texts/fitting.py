@@ -41,7 +41,7 @@ FITTING = (
     Message(
         "no-blender",
         "`{name}` cannot be opened: there is no Blender here",
-        why="{reason}; node trees are evaluated by your own Blender, in worker processes without a window",
+        why="{reason}; Geometry Nodes are evaluated by your own Blender, in worker processes without a window",
         help="install Blender 4.2 or later from blender.org, and name it: `NIWAKI_BLENDER=/path/to/blender`, or "
         "`blender=` in Python; a Python with the package `bpy` does, too",
         example="niwaki fit chair.blend --target chair.stl, on a machine without Blender",
@@ -49,7 +49,7 @@ FITTING = (
     ),
     Message(
         "blender-failed",
-        "Blender does not open `{name}`",
+        "`{name}` does not open in Blender",
         why="{reason}",
         help="open the file in this Blender by hand; a file of a later version needs a later Blender",
         example="niwaki fit chair.blend --target chair.stl, of a file that is no .blend",
