@@ -10,7 +10,6 @@ from xml.etree import ElementTree
 
 import pytest
 import trimesh
-from niwaki import _engine
 from niwaki.shell import run_files
 from studio_page import at_rest, camera, choose, click_part, grow, nameless, timed, unstar, until, visible
 
@@ -76,9 +75,7 @@ def test_a_gallery_of_eight_differs_and_stars_keep_their_order(open_page, served
     grow(page)
     at_rest(page)
     results = page.evaluate("window.__studio.view.results")
-    data = run_files.load(served.folder / "runs" / f"{results[0]['key']['run']}.json")
-    runs = [run_files.replayed(data, result["key"]["number"])._run for result in results]
-    assert len(runs) >= 6 and len(_engine.different(runs, len(runs))) == len(runs)
+    assert len(results) >= 6 and len({result["kind"] for result in results}) == len(results)
     for number in (4, 1):
         page.locator(".card .star").nth(number).click()
         until(page, f"window.__studio.view.stars.some(star => star.number == {number})")
