@@ -203,6 +203,8 @@ def test_a_held_part_is_grown_again_only_after_it_is_freed(open_page, served):
     at_rest(page)
     click_part(page, visible(page, "wings"))
     until(page, "window.__studio.selection.part")
+    # All wings of a section: a wing alone decides whether others follow, and these may not change.
+    page.locator("nav.levels button:not([aria-current=true])").last.click()
     page.keyboard.press("h")
     until(page, "window.__studio.view.held.length == 1")
     run = page.evaluate("window.__studio.view.picked.run")

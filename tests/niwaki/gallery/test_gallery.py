@@ -57,7 +57,7 @@ def test_models_grow_the_same_result_again(gallery_entry: Entry) -> None:
     empty_scene = nw.grow(empty, target, particles=1, voxel=gallery_entry.voxel, seed=1).best
     # The first models have many kinds, which the default search visits and few particles do not.
     is_first = gallery_entry.name in FIRST
-    effort: dict[str, int] = {"rounds": 6, "runs": 2} if is_first else {"particles": FEW, "runs": 3}
+    effort: dict[str, int] = {"rounds": 8, "runs": 2} if is_first else {"particles": FEW, "runs": 3}
     settings: dict[str, Any] = {"voxel": gallery_entry.voxel, "seed": 1, **effort}
     first = nw.grow(gallery_entry.model, target, **settings)
     again = nw.grow(gallery_entry.model, target, threads=1, **settings)
