@@ -309,7 +309,9 @@ def guided(method: Method, guide: Guide | None, settings: Mapping[str, Any]) -> 
         raise InputError("flag-alone", flag="--look-ahead", other="`--method smc`", reason=reason)
     if not isinstance(method, Smc | ParticleGibbs | Pimh):
         reason = f"`--method {method.NAME}` draws no choices by a guide"
-        raise InputError("flag-alone", flag="--guide", other="`--method smc`", reason=reason)
+        raise InputError(
+            "flag-alone", flag="--guide", other="`--method improve` or `--method smc`", reason=reason
+        )
     return replace(method, guide=guide, look_ahead=ahead)
 
 
