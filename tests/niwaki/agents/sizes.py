@@ -6,6 +6,7 @@ python tests/niwaki/agents/sizes.py --write    write the table of sizes into doc
 
 from __future__ import annotations
 
+import os
 import sys
 import tempfile
 import time
@@ -15,6 +16,9 @@ from pathlib import Path
 from agent import Agent, agent
 from niwaki.agents.tools import tools
 from test_sessions import SESSIONS, replay
+
+# Searches are as short as in the tests.
+os.environ.setdefault("NIWAKI_ROUNDS", "15")
 
 TABLE = Path(__file__).parents[3] / "docs" / "pictures" / "agent-sizes.txt"
 
