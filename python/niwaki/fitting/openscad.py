@@ -13,7 +13,8 @@ import os
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from importlib import import_module
 from importlib.util import find_spec
 from os import PathLike
@@ -96,28 +97,13 @@ class ScadGenerator(Generator):
 
     def _by_program(self, source: str) -> Any:
         assert self.program is not None
-        # Files that it includes or imports are found beside it.
-        with tempfile.NamedTemporaryFile(
-            "w", suffix=".scad", dir=self.path.parent, prefix=".niwaki-"
-        ) as file:
-            file.write(source)
-            file.flush()
-            with tempfile.TemporaryDirectory(prefix="niwaki-") as folder:
-                place = Path(folder, "mesh.stl")
-                done = subprocess.run(
-                    [self.program, "-o", str(place), file.name],
-                    stdin=subprocess.DEVNULL,
-                    capture_output=True,
-                    text=True,
-                )
-                # After an error OpenSCAD reports an empty object, too.
-                errors = "; ".join(line for line in done.stderr.splitlines() if line.startswith("ERROR"))
-                if "is empty" in done.stderr and not errors:
-                    return None
-                if done.returncode or not place.is_file():
-                    shown = errors[:SHOWN] or done.stderr[-SHOWN:].strip()
-                    raise RuntimeError(f"openscad ended with code {done.returncode}: {shown}")
-                return read(place)
+        with program_output(self.program, source, self.path.parent, "mesh.stl") as (place, done, errors):
+            if "is empty" in done.stderr and not errors:
+                return None
+            if done.returncode or not place.is_file():
+                shown = errors[:SHOWN] or done.stderr[-SHOWN:].strip()
+                raise RuntimeError(f"openscad ended with code {done.returncode}: {shown}")
+            return read(place)
 
     def identity(self) -> dict[str, str]:
         """Return the hash of the file, and what evaluates it."""
@@ -140,6 +126,28 @@ class ScadGenerator(Generator):
         generator.kept = dict(recipe["kept"])
         os.chdir(generator.path.parent)
         return generator
+
+
+@contextmanager
+def program_output(
+    program: str, source: str, folder: Path, name: str
+) -> Iterator[tuple[Path, subprocess.CompletedProcess[str], str]]:
+    """Run the program on a source; files that it includes or imports are found in a folder.
+
+    Yields the place of its output, whose format the name's suffix tells, how the program ended, and its errors. After
+    an error it reports an empty object, too.
+    """
+    with (
+        tempfile.NamedTemporaryFile("w", suffix=".scad", dir=folder, prefix=".niwaki-") as file,
+        tempfile.TemporaryDirectory(prefix="niwaki-") as outputs,
+    ):
+        file.write(source)
+        file.flush()
+        place = Path(outputs, name)
+        command = [program, "-o", str(place), file.name]
+        done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+        errors = "; ".join(line for line in done.stderr.splitlines() if line.startswith("ERROR"))
+        yield place, done, errors
 
 
 def _literal(value: Any) -> str:

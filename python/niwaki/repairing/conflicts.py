@@ -14,7 +14,7 @@ SHOWN = 3
 def conflicts_of(search: Repairing) -> Iterator[Conflict]:
     """Return what is still violated in the best run, with what is violated in every run that keeps it."""
     for row in sorted(search.best.violations, key=lambda row: -row.amount)[:SHOWN]:
-        words = f"{row.requirement} ({', '.join(row.parts)})" if row.parts else row.requirement
+        words = row.title
         keeping = [trial for trial in search.sound if row.key not in trial.broken]
         if keeping:
             rivals = _in_all(keeping) or _nearest(keeping)
@@ -27,10 +27,7 @@ def conflicts_of(search: Repairing) -> Iterator[Conflict]:
 
 
 def _names(trial: Trial) -> tuple[str, ...]:
-    return tuple(
-        f"{row.requirement} ({', '.join(row.parts)})" if row.parts else row.requirement
-        for row in sorted(trial.violations, key=lambda row: -row.amount)
-    )
+    return tuple(row.title for row in sorted(trial.violations, key=lambda row: -row.amount))
 
 
 def _in_all(trials: list[Trial]) -> tuple[str, ...]:

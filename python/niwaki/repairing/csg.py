@@ -10,8 +10,6 @@ from __future__ import annotations
 import math
 import re
 import shutil
-import subprocess
-import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -21,7 +19,7 @@ import numpy as np
 from niwaki.errors import InputError
 from niwaki.errors.extras import optional
 from niwaki.fitting.commands import SHOWN
-from niwaki.fitting.openscad import PROGRAM
+from niwaki.fitting.openscad import PROGRAM, program_output
 
 _TOKEN = re.compile(
     r'"(?:\\.|[^"\\])*"|\$?[A-Za-z_]\w*|-?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-{}()\[\],=;#%*!:]'
@@ -52,18 +50,7 @@ def parts_of_scad(text: str, path: Path) -> dict[str, Any]:
     program = shutil.which(PROGRAM)
     if program is None:
         raise InputError("no-openscad", name=path.name)
-    # Files that it includes are found beside it.
-    with (
-        tempfile.NamedTemporaryFile("w", suffix=".scad", dir=path.parent, prefix=".niwaki-") as file,
-        tempfile.TemporaryDirectory(prefix="niwaki-") as folder,
-    ):
-        file.write(text)
-        file.flush()
-        place = Path(folder, "tree.csg")
-        done = subprocess.run(
-            [program, "-o", str(place), file.name], stdin=subprocess.DEVNULL, capture_output=True, text=True
-        )
-        errors = "; ".join(line for line in done.stderr.splitlines() if line.startswith("ERROR"))
+    with program_output(program, text, path.parent, "tree.csg") as (place, done, errors):
         if done.returncode or errors or not place.is_file():
             raise RuntimeError(f"openscad: {errors[:SHOWN] or done.stderr[-SHOWN:].strip()}")
         tree = place.read_text()

@@ -61,6 +61,11 @@ class Violation:
         """The requirement and the parts."""
         return self.requirement, self.parts
 
+    @property
+    def title(self) -> str:
+        """The requirement and the parts in words: `collisions (bed, wardrobe)`."""
+        return f"{self.requirement} ({', '.join(self.parts)})" if self.parts else self.requirement
+
     def __str__(self) -> str:
         """Return it in words: `collisions: bed, wardrobe (0.1)`."""
         about = f": {', '.join(self.parts)}" if self.parts else ""

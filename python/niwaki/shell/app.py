@@ -94,6 +94,17 @@ Verbose = Annotated[
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON. Files are then written only with -o.")]
 
+Workers = Annotated[
+    int | None,
+    typer.Option("--workers", metavar="N", help="Processes that evaluate. Default: one for each processor."),
+]
+Limit = Annotated[
+    float,
+    typer.Option(
+        "--limit", metavar="S", help="Seconds of one evaluation, until ten are known: then ten medians."
+    ),
+]
+
 Megabytes = Annotated[
     int,
     typer.Option(

@@ -24,7 +24,7 @@ from niwaki.fitting.fronts import front_camera
 from niwaki.fitting.generator import Generator
 from niwaki.fitting.loading import BLEND, generator_of
 from niwaki.shell import controls, folders, origin, pictures, settings
-from niwaki.shell.app import Json, Seed, app, counted
+from niwaki.shell.app import Json, Limit, Seed, Workers, app, counted
 from niwaki.shell.progress import duration, status_line
 from niwaki.targets import asks
 
@@ -60,18 +60,8 @@ def fit(
         float | None,
         typer.Option("--seconds", metavar="SECONDS", help="Begin no evaluation after so many seconds."),
     ] = None,
-    workers: Annotated[
-        int | None,
-        typer.Option(
-            "--workers", metavar="N", help="Processes that evaluate. Default: one for each processor."
-        ),
-    ] = None,
-    limit: Annotated[
-        float,
-        typer.Option(
-            "--limit", metavar="S", help="Seconds of one evaluation, until ten are known: then ten medians."
-        ),
-    ] = 60.0,
+    workers: Workers = None,
+    limit: Limit = 60.0,
     align: Annotated[
         bool, typer.Option("--align", help="Search the place, turn and size of the mesh, too.")
     ] = False,

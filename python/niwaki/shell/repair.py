@@ -13,7 +13,7 @@ import niwaki as nw
 from niwaki.errors import InputError
 from niwaki.repairing.result import Patch, Repair
 from niwaki.repairing.search import Trial
-from niwaki.shell.app import Json, app, counted
+from niwaki.shell.app import Json, Limit, Workers, app, counted
 from niwaki.shell.progress import status_line
 from niwaki.shell.requirements import NAME
 
@@ -64,18 +64,8 @@ def repair(
     evaluations: Annotated[
         int, typer.Option("--evaluations", metavar="N", help="The most runs of the script.")
     ] = 100,
-    workers: Annotated[
-        int | None,
-        typer.Option(
-            "--workers", metavar="N", help="Processes that evaluate. Default: one for each processor."
-        ),
-    ] = None,
-    limit: Annotated[
-        float,
-        typer.Option(
-            "--limit", metavar="S", help="Seconds of one evaluation, until ten are known: then ten medians."
-        ),
-    ] = 60.0,
+    workers: Workers = None,
+    limit: Limit = 60.0,
     up: Annotated[
         str | None,
         typer.Option("--up", metavar="y|z", help="The axis that points up. Default: z for OpenSCAD, else y."),
