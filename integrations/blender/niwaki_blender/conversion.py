@@ -6,6 +6,7 @@ from math import atan2, degrees
 
 import bpy
 import numpy as np
+from niwaki.fitting.in_blender.stage import triangles_of
 from numpy.typing import NDArray
 
 from .order import Eye, Mesh
@@ -23,24 +24,10 @@ def mesh(obj: bpy.types.Object, context: bpy.types.Context) -> Mesh:
         The object has no faces.
     """
     evaluated = obj.evaluated_get(context.evaluated_depsgraph_get())
-    data = evaluated.to_mesh()
-    try:
-        data.calc_loop_triangles()
-        vertices = np.empty(3 * len(data.vertices), dtype=np.float32)
-        data.vertices.foreach_get("co", vertices)
-        faces = np.empty(3 * len(data.loop_triangles), dtype=np.int32)
-        data.loop_triangles.foreach_get("vertices", faces)
-    finally:
-        evaluated.to_mesh_clear()
-    if not len(faces):
+    points, triangles = triangles_of(evaluated, np.array(evaluated.matrix_world, dtype=np.float64))
+    if not len(triangles):
         raise ValueError(f"{obj.name} has no faces")
-    matrix = np.array(evaluated.matrix_world, dtype=np.float64)
-    points = vertices.reshape(-1, 3).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
-    triangles = faces.reshape(-1, 3).astype(np.int64)
-    if np.linalg.det(matrix[:3, :3]) < 0.0:
-        # A mirror image reverses triangles.
-        triangles = triangles[:, ::-1]
-    return Mesh(obj.name, points, np.ascontiguousarray(triangles))
+    return Mesh(obj.name, points, triangles)
 
 
 def eye(obj: bpy.types.Object, scene: bpy.types.Scene) -> Eye:

@@ -53,7 +53,7 @@ def mesh(scene: Any, obj: Any) -> Arrays:
         if source is None or source.original != obj:
             continue
         if instance.object.type in FACED:
-            part = _triangles(instance.object, np.array(instance.matrix_world, dtype=np.float64))
+            part = triangles_of(instance.object, np.array(instance.matrix_world, dtype=np.float64))
             if len(part[1]):
                 parts.append(part)
                 continue
@@ -68,7 +68,7 @@ def mesh(scene: Any, obj: Any) -> Arrays:
     return np.concatenate([points for points, _ in parts]), np.concatenate(faces)
 
 
-def _triangles(evaluated: Any, matrix: NDArray[np.float64]) -> Arrays:
+def triangles_of(evaluated: Any, matrix: NDArray[np.float64]) -> Arrays:
     """Read the triangles of an evaluated object, placed by a matrix."""
     data = evaluated.to_mesh()
     if data is None:
