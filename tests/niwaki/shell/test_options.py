@@ -114,6 +114,7 @@ FLAGS = {
         "N",
         ("The number of results that differ", "improve, smc, emulate: The number of results that differ"),
     ),
+    "--generations": ("--generations", "N", "The number of generations of eight short searches"),
     "--by": ("--by", "kind|look|CHOICES|QUERY", "What tells results apart."),
     "--margin": ("--margin", "NUMBER", "The nats below the best within which"),
     "--bins": ("--bins", "N", "The number of bins of a real choice or query"),
