@@ -144,7 +144,8 @@ impl Improve {
 
     /// A setting and the rule that it breaks.
     pub(crate) fn broken_rule(&self) -> Option<(&'static str, &'static str)> {
-        (self.generations.is_some() && self.diverse.is_none()).then_some(("generations", "generations-diverse"))
+        (self.generations.is_some() && self.diverse.is_none())
+            .then_some(("generations", "generations-diverse"))
     }
 
     /// Searches for the best run, or for several different runs, best first. If there is a `proposal`, populations and parts that are
