@@ -68,8 +68,8 @@ MOST_RUNS = 5000
 #: Values less probable are not counted.
 LEAST_SHARE = 0.05
 FIRST_LIMIT, LIMIT = 5.0, 7.0
-#: Populations, annealed searches, runs of particle Gibbs, and batches of a chain at the first look; the second has sixteen
-#: times as many.
+#: Populations, annealed searches, runs of particle Gibbs, and batches of a chain at the first look; the second has
+#: sixteen times as many.
 POPULATIONS, ANNEALED, STARTS, BATCHES, BATCH, TIMES = 150, 60, 60, 40, 20, 16
 
 #: Of programs with memoised functions: no part of a run can be grown again.
@@ -445,8 +445,8 @@ def test_what_several_places_write_is_not_set_back() -> None:
 @pytest.mark.parametrize("name", METHODS)
 def test_a_factor_that_counts_twice_is_seen(name: str) -> None:
     """The mutant of every method: what it follows is not the program that it is judged by. At `TIMES` particle Gibbs is
-    about as far off as the limit, so it looks at the wrong program twice as often; the others are off by twice the limit
-    at a quarter.
+    about as far off as the limit, so it looks at the wrong program twice as often; the others are off by twice the
+    limit at a quarter.
     """
     twice = load(ONCE.replace("0.6 * k", "1.2 * k"))
     few, many = TIMES // 4, 2 * TIMES if name in gibbs(0) else TIMES // 4

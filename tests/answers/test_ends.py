@@ -1,9 +1,10 @@
 """Claim: at parameters whose mass is at the ends of an interval every method has the same law, and values stay inside.
 
 A value is a number of 64 bits inside its interval; the last one at each end stands for everything beyond it. Shares
-of the coordinate on either side of a few places have their exact answers by the distribution function. An estimate is held within 4.5 standard errors (of chains by batch means): once in 150,000 a true one is not,
-and about 200 are judged. Of every family that has coordinates, the density over them integrates to one: over the
-line, or over one turn of an angle, which is what `vi` takes it over.
+of the coordinate on either side of a few places have their exact answers by the distribution function. An estimate is
+held within 4.5 standard errors (of chains by batch means): once in 150,000 a true one is not, and about 200 are judged.
+Of every family that has coordinates, the density over them integrates to one: over the line, or over one turn of an
+angle, which is what `vi` takes it over.
 """
 
 from __future__ import annotations
