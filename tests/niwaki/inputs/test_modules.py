@@ -116,6 +116,14 @@ def test_every_command_runs_such_a_file(folder: Path, name: str) -> None:
     assert name in json.dumps(json.loads((out / "run.json").read_text())["search"])
 
 
+def test_a_library_is_imported_and_not_the_file_of_its_name(folder: Path) -> None:
+    # Nothing else imports this library, so that the file does so first.
+    place = folder / "packaging.py"
+    place.write_text(MODEL)
+    done = shell(["check", place], folder)
+    assert done.returncode == 0, done.stderr
+
+
 def shell(words: Any, folder: Path, **environment: str) -> subprocess.CompletedProcess[str]:
     # `-P`: like the console script, do not import from the current folder.
     program = [sys.executable, "-P", "-c", "from niwaki.shell.main import main; main()", *map(str, words)]
