@@ -72,7 +72,9 @@ def repair(
     ] = None,
     target: Annotated[
         Path | None,
-        typer.Option("--target", metavar="FILE", help="The mesh that `covered` and `outside` measure."),
+        typer.Option(
+            "--target", metavar="FILE", help="A mesh to fill, of which `covered` and `outside` are shares."
+        ),
     ] = None,
     as_json: Json = False,
 ) -> None:

@@ -11,7 +11,8 @@ from niwaki import InputError, _engine, box, cylinder, emit, model, rotation, ru
 from niwaki.draw.scene import Scene
 from niwaki.methods import Forward
 from niwaki.requirements import Keep
-from niwaki.requirements.form import thickness
+from niwaki.requirements.form import Form, pieces, thickness
+from niwaki.requirements.keep import REQUIREMENTS
 from niwaki.shell import requirements
 from niwaki.shell.app import app
 from typer.testing import CliRunner
@@ -41,6 +42,18 @@ def leaning(x=0.0, width=1.0):
     emit(box((x, 1.5, 0), (width, 1, 1)))
 
 
+ALL = Keep(
+    covered=0.9,
+    outside=0.1,
+    height=(1.9, 2.0),
+    within=((-0.5, 0.0, -0.5), (1.0, 2.0, 0.5)),
+    thinnest=0.25,
+    stands=True,
+    supported=True,
+    collisions=False,
+)
+
+
 def judged(rules: Keep, program=leaning, **arguments):
     """Return what holds, by name."""
     sample = run(program, method=Forward(), seed=1, **arguments).best
@@ -57,11 +70,33 @@ def judged(rules: Keep, program=leaning, **arguments):
         ({}, "height", True),
         ({}, "covered", False),
         ({}, "collisions", True),
+        ({"x": 0.4}, "within", True),
+        ({"x": 0.6}, "within", False),
+        ({"x": 0.4}, "supported", True),
+        ({"x": 0.6}, "supported", False),
     ],
 )
 def test_a_run_is_held_against_each_requirement(arguments, name, holds):
-    rules = Keep(covered=0.9, height=(1.9, 2.0), thinnest=0.25, stands=True, collisions=False)
-    assert judged(rules, **arguments)[name] is holds
+    assert judged(ALL, **arguments)[name] is holds
+
+
+def test_each_requirement_has_a_field_and_a_measure_that_an_empty_scene_can_be_held_against():
+    assert list(REQUIREMENTS) == list(Keep.__struct_fields__) == [name for name, _, _ in ALL.active()]
+    empty = Form([], np.zeros((0, 2, 3)), list)
+    kept = [row.name for row in ALL.judged(empty) if row.holds]
+    assert kept == ["within", "thinnest", "supported", "collisions"]
+    assert {row.requirement for row in ALL.violations(empty)} == {"covered", "outside", "height", "stands"}
+    assert Keep(stands=False, supported=False, collisions=True).rows() == []
+
+
+def test_solids_of_one_mesh_are_measured_apart():
+    corner = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+    faces = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+    two = np.concatenate([corner, 0.5 * corner + 5.0]), np.concatenate([faces, faces + 4])
+    soup = two[0][two[1]].reshape(-1, 3), np.arange(24).reshape(8, 3)
+    for mesh in (two, soup):
+        wide, narrow = (thickness(piece) for piece in pieces(*mesh))
+        assert np.isclose(wide, 3**-0.5) and np.isclose(narrow, 0.5 * wide)
 
 
 @model
@@ -105,13 +140,17 @@ def test_a_scene_on_one_edge_does_not_stand():
         ("height = [3.0, 2.0]", "least height first"),
         ("covered = 1.5", "covered"),
         ("stands = 1", "stands"),
+        ("within = [[0, 0, 0], [nan, 1, 1]]", "lowest corner first"),
+        ("  hight = [2, 3]  # metres", "did you mean `height`?"),
     ],
 )
 def test_a_file_with_a_fault_says_where(tmp_path: Path, text: str, reason: str):
     (tmp_path / "requirements.toml").write_text(text)
     with pytest.raises(InputError, match="does not describe requirements") as caught:
         Keep.load(tmp_path / "requirements.toml")
-    assert reason in str(caught.value)
+    margin = len(text) - len(text.lstrip())
+    assert reason in str(caught.value) and f"requirements.toml:1:{margin + 1}" in str(caught.value)
+    assert f"  | {' ' * margin}{'^' * len(text.split('#')[0].strip())}" in str(caught.value)
 
 
 def shell(*words: str) -> tuple[int, str]:
@@ -139,7 +178,6 @@ def test_a_target_that_contradicts_a_requirement_is_named_and_so_are_two_require
     code, output = shell(*GROW, "--json")
     assert code == 1
     assert json.loads(output)["conflicts"] == ["`height 1 to 2` stands against the target (height 3)"]
-    (place / "requirements.toml").write_text("height = [2.0, 3.5]\nwithin = [[-1, 0, -1], [1, 1.9, 1]]\n")
     shorter = run(leaning, method=Forward(), seed=1, x=2.0)
     taller = run(crossing, method=Forward(), seed=1)
     rules = Keep(height=(1.5, 2.5), within=((-1.0, 0.0, -1.0), (1.5, 1.9, 1.5)))
