@@ -6,6 +6,7 @@ from . import gallery as gallery
 from . import guides as guides
 from . import methods as methods
 from . import repairing as repairing
+from . import requirements as requirements
 from . import result as result
 from . import targets as targets
 from . import words as words
@@ -47,10 +48,10 @@ from .methods import rejection as rejection
 from .methods import smc as smc
 from .methods import vi as vi
 from .notebook import view as view
-from .repairing import Keep as Keep
 from .repairing import Output as Output
-from .repairing import Violation as Violation
 from .repairing import repair as repair
+from .requirements import Keep as Keep
+from .requirements import Violation as Violation
 from .result import Result as Result
 from .result import Sample as Sample
 from .result import diagnostics as diagnostics

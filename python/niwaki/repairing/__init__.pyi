@@ -1,7 +1,5 @@
 from .entry import repair as repair
-from .requirements import Keep as Keep
 from .result import Conflict as Conflict
 from .result import Patch as Patch
 from .result import Repair as Repair
 from .scripts import Output as Output
-from .scripts import Violation as Violation

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from msgspec import structs
 
 from niwaki.batches.pools import cores
 from niwaki.errors import InputError
@@ -21,11 +22,15 @@ from niwaki.fitting.pool import Caller, Here, Limit, Reply, Workers
 from niwaki.inputs.files import bytes_of
 from niwaki.repairing.conflicts import conflicts_of
 from niwaki.repairing.literals import literals
-from niwaki.repairing.prediction import Array, Rules
-from niwaki.repairing.requirements import Keep, keep_of
+from niwaki.repairing.prediction import Rules
 from niwaki.repairing.result import Patch, Repair, edits_of
-from niwaki.repairing.scripts import ScriptGenerator, Violation, split
-from niwaki.repairing.search import Key, Repairing, Trial
+from niwaki.repairing.scripts import ScriptGenerator, split
+from niwaki.repairing.search import Repairing, Trial
+from niwaki.requirements import Keep, Violation
+from niwaki.requirements.boxes import Array
+from niwaki.requirements.form import Form
+from niwaki.targets.sketches import Score, volume_score
+from niwaki.targets.target import Target
 
 #: A function that judges parts: it gets their boxes by name, and returns what is violated.
 Judge = Callable[[Mapping[str, Array]], Sequence[Violation]]
@@ -44,6 +49,7 @@ def repair(
     workers: int | None = None,
     limit: float = 60.0,
     up: str | None = None,
+    target: Target | str | PathLike[str] | None = None,
     progress: Callable[[Trial], None] | None = None,
 ) -> Repair:
     """Repair a script that breaks requirements, by few of its own numbers.
@@ -78,6 +84,8 @@ def repair(
         Seconds that a run may take: see `nw.fit`.
     up
         The axis that points up, "y" or "z". Default: "z" for OpenSCAD, else "y".
+    target
+        The solid, or its file, that `covered` and `outside` measure.
     progress
         A function that is called with each run.
 
@@ -110,7 +118,8 @@ def repair(
         raise bad(
             "goal", None, "`nw.Keep(...)`, the path of a requirements.toml, or a function", "`nw.Keep(...)`"
         )
-    judge: Keep | Judge | None = goal if goal is None or callable(goal) else keep_of(goal)
+    judge: Keep | Judge | None = goal if goal is None or callable(goal) else _keep_of(goal)
+    score = _score(judge, target)
     text = bytes_of(place, "model").decode()
     try:
         rows = literals(text, is_scad, free, fix, [sorted(entry) for entry in words])
@@ -124,7 +133,7 @@ def repair(
     recipe = None if workers == 0 else generator.recipe()
     number = cores() if workers is None else count("workers", workers, 0)
     caller: Caller = Here(generator, bounds) if recipe is None else Workers(recipe, number, bounds)
-    runs = _Runs(caller, judge, "xyz".index(axis))
+    runs = _Runs(caller, judge, "xyz".index(axis), score)
     try:
         base = runs([{}])[0]
         if base.boxes is None:
@@ -138,7 +147,6 @@ def repair(
             if isinstance(judge, Keep) and judge.within is not None:
                 rules.walls = np.array(judge.within)
             named = set(free)
-            known = judge if isinstance(judge, Keep) else None
             search = Repairing(
                 loose,
                 runs,
@@ -147,7 +155,8 @@ def repair(
                 evaluations,
                 exact=not is_scad,
                 resizes=lambda row: bool({*row.names, row.line} & named),
-                judge=None if known is None else runs.foresight(known),
+                keep=judge if isinstance(judge, Keep) else None,
+                form=Form.of_parts(runs.parts[0], runs.up, score),
             )
             try:
                 search.run(progress or (lambda trial: None), patches)
@@ -167,6 +176,37 @@ def repair(
         )
     finally:
         caller.close()
+
+
+def _keep_of(goal: Any) -> Keep:
+    """Return requirements, read from a file if they are a path; a repair needs at least one."""
+    if not isinstance(goal, Keep | str | PathLike):
+        raise bad(
+            "goal", goal, "`nw.Keep(...)`, the path of a requirements.toml, or a function", "`nw.Keep(...)`"
+        )
+    keep = Keep.of_data(structs.asdict(goal)) if isinstance(goal, Keep) else Keep.load(goal)
+    if not keep.rows():
+        place = "nw.Keep" if isinstance(goal, Keep) else Path(goal)
+        raise InputError("bad-requirements", path=place, reason="there is no requirement to keep")
+    return keep
+
+
+def _score(judge: Keep | Judge | None, target: Target | str | PathLike[str] | None) -> Score | None:
+    """Return the score that measures how parts fill the target; None if nothing asks for it."""
+    asking = (
+        [name for name, _, row in judge.active() if row.by == "target"] if isinstance(judge, Keep) else []
+    )
+    if bool(asking) == (target is not None):
+        return None if target is None else volume_score(target)
+    if asking:
+        reason = "it is a share of a target, and a script has none of its own"
+        raise InputError(
+            "flag-alone", flag=asking[0], other="`--target` (in Python `target=`)", reason=reason
+        )
+    reason = "no other requirement looks at a target"
+    raise InputError(
+        "flag-alone", flag="--target", other="`covered` or `outside` in the requirements", reason=reason
+    )
 
 
 def _patches(search: Repairing, place: Path, text: str, runs: _Runs, most: int) -> tuple[Patch, ...]:
@@ -196,8 +236,8 @@ def _patches(search: Repairing, place: Path, text: str, runs: _Runs, most: int) 
 class _Runs:
     """Runs of the script, judged."""
 
-    def __init__(self, caller: Caller, judge: Keep | Judge | None, up: int) -> None:
-        self.caller, self.judge, self.up = caller, judge, up
+    def __init__(self, caller: Caller, judge: Keep | Judge | None, up: int, score: Score | None) -> None:
+        self.caller, self.judge, self.up, self.score = caller, judge, up, score
         self.names: tuple[str, ...] = ()
         self.number = 0
         self.failures: dict[str, int] = {}
@@ -230,13 +270,9 @@ class _Runs:
         self.parts.append(reply.parts)
         return Trial(number, dict(values), boxes, violations, failed)
 
-    def foresight(self, keep: Keep) -> Callable[[Array], Mapping[Key, float]]:
-        """Return a function that judges predicted boxes."""
-        return lambda boxes: {row.key: row.amount for row in keep.of_boxes(self.names, boxes, self.up)}
-
     def _judged(self, reply: Reply, names: tuple[str, ...], boxes: Array) -> tuple[Violation, ...]:
         if isinstance(self.judge, Keep):
-            rows = self.judge.violations(reply.parts, boxes, self.up)
+            rows = self.judge.violations(Form.of_parts(reply.parts, self.up, self.score))
         elif self.judge is not None:
             rows = list(self.judge(dict(zip(names, boxes, strict=True))))
         else:

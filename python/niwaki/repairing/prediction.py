@@ -21,9 +21,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from niwaki.repairing.scripts import Violation
-
-Array = NDArray[np.float64]
+from niwaki.requirements.boxes import TOUCHING, Array, depths, overlaps
+from niwaki.requirements.rows import Violation
 
 #: Changes of numbers for derivatives, as shares of the widths of their priors; the runs with them; the most of them.
 TINY, RUNS, MOST_RUNS = 1e-6, 6, 12
@@ -31,8 +30,6 @@ TINY, RUNS, MOST_RUNS = 1e-6, 6, 12
 EXPLAINED = 1e-4
 #: Sets of numbers that are extended side by side.
 KEPT = 40
-#: Two parts touch, or overlap, within this share of the scene's size.
-TOUCHING = 1e-3
 #: Two parts that overlap by less than this share of the scene's size only touch.
 CLOSE = 1e-8
 #: The room that a part asks for grows by this share of its size with each violation that it does not explain.
@@ -160,6 +157,11 @@ class Rules:
         """The distance within which parts touch."""
         return TOUCHING * self.size
 
+    def places(self, parts: Sequence[str]) -> list[int]:
+        """Return the places of parts; a violation without parts is one of all."""
+        known = [self.index[name] for name in dict.fromkeys(parts) if name in self.index]
+        return known if parts else list(range(len(self.names)))
+
     def _supports(self, boxes: Array) -> NDArray[np.int64]:
         """Return what each part stands on: a part, -1 the ground, -2 nothing."""
         up, flat = self.up, [axis for axis in range(3) if axis != self.up]
@@ -194,7 +196,7 @@ class Rules:
             if count > len(self.names) / 2
         }
         for row in violations:
-            places = [self.index[name] for name in dict.fromkeys(row.parts) if name in self.index]
+            places = self.places(row.parts) if row.parts else []
             if len(places) == 1 and row.requirement not in common:
                 alone[places[0]] = True
             if len(places) != 2:
@@ -264,26 +266,6 @@ class Rules:
         if not out:
             return np.zeros((*boxes.shape[:-3], 0, len(self.names)))
         return np.stack(out, axis=-2) * self.scale
-
-
-def overlaps(first: Array, second: Array, least: float = 0.0) -> Array:
-    """Return the side of a cube as large as what two boxes share; boxes are (..., 2, 3).
-
-    Parameters
-    ----------
-    first, second
-        The boxes.
-    least
-        Boxes that share less along an axis only touch.
-    """
-    sides = np.minimum(first[..., 1, :], second[..., 1, :]) - np.maximum(first[..., 0, :], second[..., 0, :])
-    return np.asarray(np.cbrt(np.prod(np.where(sides > least, sides, 0.0), axis=-1)))
-
-
-def depths(first: Array, second: Array) -> Array:
-    """Return how deep two boxes overlap: the shortest side of what they share, below 0 if they are apart."""
-    sides = np.minimum(first[..., 1, :], second[..., 1, :]) - np.maximum(first[..., 0, :], second[..., 0, :])
-    return np.asarray(sides.min(axis=-1))
 
 
 def gaps_of(first: Array, second: Array) -> Array:

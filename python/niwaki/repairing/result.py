@@ -8,8 +8,8 @@ from typing import Any
 
 from niwaki.inputs.changes import Edit, FileChange
 from niwaki.repairing.literals import Literal
-from niwaki.repairing.scripts import Violation
 from niwaki.repairing.writing import spelled
+from niwaki.requirements import Violation
 
 
 @dataclass(frozen=True)

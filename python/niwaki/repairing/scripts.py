@@ -24,7 +24,6 @@ from typing import Any
 
 import numpy as np
 
-from niwaki import _engine
 from niwaki.draw.assembly import Assembly
 from niwaki.errors import InputError
 from niwaki.fitting.functions import FunctionGenerator
@@ -33,43 +32,10 @@ from niwaki.inputs.modules import run_file
 from niwaki.repairing.csg import parts_of_scad
 from niwaki.repairing.literals import Literal
 from niwaki.repairing.writing import written
+from niwaki.requirements import Violation
 
 #: Variables of a script that may have its parts.
 VARIABLES = ("scene", "parts")
-
-
-@dataclass(frozen=True)
-class Violation:
-    """A requirement that is violated.
-
-    Attributes
-    ----------
-    requirement : str
-        The requirement.
-    parts : tuple of str
-        The parts that violate it; of two parts, the one that asks for something comes first.
-    amount : float
-        How far: above 0, in one unit for all violations of a goal.
-    """
-
-    requirement: str
-    parts: tuple[str, ...]
-    amount: float
-
-    @property
-    def key(self) -> tuple[str, tuple[str, ...]]:
-        """The requirement and the parts."""
-        return self.requirement, self.parts
-
-    @property
-    def title(self) -> str:
-        """The requirement and the parts in words: `collisions (bed, wardrobe)`."""
-        return f"{self.requirement} ({', '.join(self.parts)})" if self.parts else self.requirement
-
-    def __str__(self) -> str:
-        """Return it in words: `collisions: bed, wardrobe (0.1)`."""
-        about = f": {', '.join(self.parts)}" if self.parts else ""
-        return f"{self.requirement}{about} ({self.amount:.3g})"
 
 
 @dataclass(frozen=True)
@@ -284,12 +250,3 @@ def split(path: str | Path) -> tuple[Path, str]:
             "unknown-model", name=text, reason=f"there is no file {Path(place or text).absolute()}"
         )
     return Path(place).resolve(), function
-
-
-def shapes_of(parts: Sequence[tuple[str, Any, Any]]) -> list[tuple[str, list[_engine.Shape]]]:
-    """Return parts as shapes of the engine; those without triangles are left out."""
-    return [
-        (name, [_engine.shape("mesh", np.ascontiguousarray(v), np.ascontiguousarray(f))])
-        for name, v, f in parts
-        if len(f)
-    ]

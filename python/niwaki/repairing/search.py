@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain, zip_longest
 from typing import Any
@@ -26,9 +26,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from niwaki.repairing.literals import Literal
-from niwaki.repairing.prediction import MOST_RUNS, RUNS, TINY, Array, Rules, changes, derivatives
-from niwaki.repairing.scripts import Violation
+from niwaki.repairing.prediction import MOST_RUNS, RUNS, TINY, Rules, changes, derivatives
 from niwaki.repairing.writing import coarse, further, rounded
+from niwaki.requirements import Keep, Violation
+from niwaki.requirements.boxes import Array
+from niwaki.requirements.form import Form
 
 #: The cost of all that is violated at first, of each violation, of each number, of a move of all by the scene's size,
 #: and of a number changed by its width.
@@ -150,8 +152,9 @@ class Repairing:
         Whether the script's coordinates have all their digits.
     resizes
         Whether a number that resizes parts may change.
-    judge
-        Judges predicted boxes: what they violate, as far as boxes tell.
+    keep, form
+        The requirements and the parts of the first run, from which the violations of predicted boxes follow; None if
+        only runs tell what is violated.
     """
 
     def __init__(
@@ -163,12 +166,17 @@ class Repairing:
         budget: int,
         exact: bool = True,
         resizes: Callable[[Literal], bool] = lambda row: False,
-        judge: Callable[[Array], Mapping[Key, float]] | None = None,
+        keep: Keep | None = None,
+        form: Form | None = None,
     ) -> None:
         assert base.boxes is not None
         self.rows = {row.key: row for row in rows}
         self.evaluate, self.base, self.rules, self.budget = evaluate, base, rules, budget
-        self.exact, self.resizes, self.judge = exact, resizes, judge
+        self.exact, self.resizes, self.keep, self.form = exact, resizes, keep, form
+        kinds = {} if keep is None else {name: row.by for name, _, row in keep.active()}
+        #: The requirements whose violations follow from predicted boxes, and those that no rule of boxes explains.
+        self.predicted = {name for name, by in kinds.items() if by != "pairs"}
+        self.unruled = {name for name, by in kinds.items() if by in ("solids", "target")}
         self.widths = {row.key: row.width(rules.size) for row in rows}
         self.slopes: dict[str, Array] = {}
         #: Which parts each number moves, as a mask and as places.
@@ -300,8 +308,8 @@ class Repairing:
 
     def _place(self, boxes: Array, key: Key) -> Array | None:
         """Return the middle of a violation's part, or how far that of the first is from that of the second."""
-        places = [self.rules.index[part] for part in dict.fromkeys(key[1]) if part in self.rules.index]
-        if not 1 <= len(places) <= 2:
+        places = self.rules.places(key[1])
+        if not key[1] or not 1 <= len(places) <= 2:
             return None
         middles = boxes[..., places, :, :].mean(axis=-2)
         return np.asarray(middles[..., 0, :] - middles[..., 1, :] if len(places) == 2 else middles[..., 0, :])
@@ -321,7 +329,7 @@ class Repairing:
 
     def _moves(self, name: str, key: Key) -> bool:
         slope = self.slopes.get(name)
-        places = [self.rules.index[part] for part in dict.fromkeys(key[1]) if part in self.rules.index]
+        places = self.rules.places(key[1])
         return slope is not None and bool(np.any(slope[places]))
 
     def differentiate(self) -> None:
@@ -406,9 +414,7 @@ class Repairing:
             table, explained = derivatives(steps[good] * unit, np.array(moved))
             matters = np.zeros((len(self.rules.names), 6), bool)
             for row in self.base.violations:
-                matters[
-                    [self.rules.index[name] for name in dict.fromkeys(row.parts) if name in self.rules.index]
-                ] = True
+                matters[self.rules.places(row.parts)] = True
             if explained[matters.ravel()].all():
                 break
             count = 3
@@ -495,7 +501,7 @@ class Repairing:
         options: list[tuple[float, dict[str, float]]] = []
         lines: set[int] = set()
         for row in best.violations:
-            places = [self.rules.index[name] for name in dict.fromkeys(row.parts) if name in self.rules.index]
+            places = self.rules.places(row.parts)
             item = _Item(row.amount, "rest", tuple(places), None, row.key)
             for key, slope in self.slopes.items():
                 if not slope[places].any():
@@ -542,8 +548,10 @@ class Repairing:
         """Run the script so that each violation that is left ends, whatever else is violated then."""
         best = self.best
         for row in best.violations[:SHOWN]:
-            places = [self.rules.index[name] for name in dict.fromkeys(row.parts) if name in self.rules.index]
-            if self.left < 1 or not places or any(row.key not in trial.broken for trial in self.sound[1:]):
+            places = self.rules.places(row.parts)
+            if self.left < 1 or not row.parts or not places:
+                continue
+            if any(row.key not in trial.broken for trial in self.sound[1:]):
                 continue
             kind = "alone" if len(places) == 1 else "pair"
             item = _Item(row.amount, kind, tuple(places))
@@ -591,7 +599,7 @@ class Repairing:
         self.trends = {}
         zones = list(rules.zones)
         for row in start.violations:
-            places = [rules.index[name] for name in dict.fromkeys(row.parts) if name in rules.index]
+            places = rules.places(row.parts)
             is_known = (len(places) == 1 and alone[places[0]] > 0) or (
                 len(places) == 2
                 and (
@@ -602,7 +610,7 @@ class Repairing:
                     )
                 )
             )
-            if not is_known:
+            if not is_known or not row.parts or row.requirement in self.unruled:
                 rest[row.key] = row.amount
                 self.hopes.setdefault(row.key, HOPE)
                 trend = self._trend(row.key)
@@ -659,13 +667,7 @@ class Repairing:
         items += [_Item(node.alone[n], "alone", (int(n),)) for n in np.flatnonzero(node.alone > 0)]
         items.sort(key=lambda item: -item.cost)
         rest = [
-            _Item(
-                amount,
-                "rest",
-                tuple(self.rules.index[p] for p in dict.fromkeys(key[1]) if p in self.rules.index),
-                None,
-                key,
-            )
+            _Item(amount, "rest", tuple(self.rules.places(key[1])), None, key)
             for key, amount in node.rest.items()
             if amount > 0
         ]
@@ -740,12 +742,13 @@ class Repairing:
             steps += self._standing(node, a, slope)
         else:
             for a in item.parts:
+                if len(item.parts) > 2 and not slope[a].any():
+                    continue
                 steps += self._standing(node, a, slope)
-                for axis in range(3):
-                    for side in range(2):
-                        off = self.rules.room[side, axis] - node.boxes[a, side, axis]
-                        if slope[a, side, axis] and off:
-                            steps.append(off / slope[a, side, axis])
+                target = None if self.form is None else self.form.target
+                for room in [self.rules.room, *([] if target is None else [target.bounds])]:
+                    off = room - node.boxes[a]
+                    steps += list(off[slope[a] != 0.0] / slope[a][slope[a] != 0.0])
                 trend = None if item.key is None else self.trends.get(item.key)
                 if trend is not None and item.key is not None:
                     here = self._place(node.boxes, item.key)
@@ -757,9 +760,9 @@ class Repairing:
                     continue
                 # An amount may be a distance, in the unit of overlaps.
                 far = item.cost / self.rules.scale
-                for axis in range(3):
-                    if slope[a, 0, axis]:
-                        steps += [far / slope[a, 0, axis], -far / slope[a, 0, axis]]
+                for along in (*slope[a, 0], *(slope[a, 1] - slope[a, 0])):
+                    if along:
+                        steps += [far / along, -far / along]
         yield from (step for step in steps if 0.0 < abs(step) <= reach)
 
     def _standing(self, node: _Node, part: int, slope: Array) -> Iterator[float]:
@@ -847,9 +850,10 @@ class Repairing:
     ) -> dict[Key, Array]:
         """Return what is left of violations that no rule explains, by their trends, or by hope."""
         out: dict[Key, Array] = {}
-        judged = None if self.judge is None or not node.rest else [self.judge(entry) for entry in boxes]
+        names = {name for name, _ in node.rest} & self.predicted
+        judged = [self._judged(entry, names) for entry in boxes] if names else []
         for key, amount in node.rest.items():
-            if judged is not None and key[0] != "collisions":
+            if key[0] in names:
                 out[key] = np.array([row.get(key, 0.0) for row in judged])
                 continue
             trend = self.trends.get(key)
@@ -864,6 +868,11 @@ class Repairing:
                     len(boxes), amount * (1.0 - eased[1] if eased and eased[0] == key else 1.0)
                 )
         return out
+
+    def _judged(self, boxes: Array, names: Collection[str]) -> Mapping[Key, float]:
+        """Return what predicted boxes violate of requirements."""
+        assert self.keep is not None and self.form is not None
+        return {row.key: row.amount for row in self.keep.violations(self.form.moved(boxes), names)}
 
     def _child(
         self,

@@ -14,6 +14,7 @@ import typer
 from niwaki import lang, shell, targets
 from niwaki.errors import InputError, ModelError, NiwakiError
 from niwaki.inputs.modules import modules
+from niwaki.requirements.rows import RequirementRow
 from niwaki.result import Sample
 from niwaki.shell import arguments, compare, controls, reports, run_files, trust
 from niwaki.shell.app import Json, ModelName, app
@@ -173,7 +174,7 @@ def report(
 
 def _requirements(
     reference: ModelReference, sample: Sample | None, values: Mapping[str, Any]
-) -> list[reports.RequirementRow]:
+) -> list[RequirementRow]:
     """Hold a run against the requirements beside a model, or runs without a target."""
     rules = shell.requirements.beside(reference)
     if rules is None:

@@ -74,8 +74,8 @@ def grow(
         )
         with held_folder(source.resume) as folder:
             _, spent, _ = evaluations.sized(search, is_free=False)
-            result = _run(search, reference, threads, stored, clock, verbose, spent)
-            _end(result, reference, folder, contents, out, stored, clock, verbose)
+            kept = _run(search, reference, threads, stored, clock, verbose, spent)
+            _end(*kept, reference, folder, contents, out, stored, clock, verbose)
         return
     patterns, values = origin.read(origin_flags)
     earlier = None
@@ -127,14 +127,15 @@ def grow(
             (folder / pictures.IMPOSSIBLE).unlink(missing_ok=True)
         with _draw_impossible(search, folder if images.wanted and style is None else None, images.quick):
             checkpoint: nw.Checkpoint | None = None
+            conflicts: list[str] = []
             if earlier is not None and earlier.reroll:
                 with clock.part("search"):
                     result = earlier.reroll_parts(search, method_settings["particles"], threads)
             else:
                 if folder is not None:
                     checkpoint = resume.new_checkpoint(folder, "grow", reference, **asdict(contents))
-                result = _run(search, reference, threads, checkpoint, clock, verbose, spent)
-        _end(result, reference, folder, contents, out, checkpoint, clock, verbose, single_file)
+                result, conflicts = _run(search, reference, threads, checkpoint, clock, verbose, spent)
+        _end(result, conflicts, reference, folder, contents, out, checkpoint, clock, verbose, single_file)
 
 
 def _is_given(context: typer.Context, name: str) -> bool:
@@ -151,7 +152,7 @@ def _run(
     clock: Clock,
     verbose: bool,
     spent: evaluations.Evaluations,
-) -> nw.Result:
+) -> tuple[nw.Result, list[str]]:
     """Run the search, with a line about its progress, until results keep the requirements beside the model."""
     rules = requirements.beside(reference)
 
@@ -216,6 +217,7 @@ class Contents:
 
 def _end(
     result: nw.Result,
+    conflicts: list[str],
     reference: shell.references.ModelReference,
     folder: Path | None,
     contents: Contents,
@@ -244,7 +246,7 @@ def _end(
         runs = [shell.run_files.numbers(sample) | {"seed": sample.seed} for sample in result]
         if rules is not None:
             runs = [run | {"unmet": rules.unmet(sample)} for run, sample in zip(runs, result, strict=True)]
-        print(json.dumps({"runs": runs}))
+        print(json.dumps({"runs": runs} | ({"conflicts": conflicts} if conflicts else {})))
     elif place is not None:
         _summary(result, place, clock, verbose)
     if result.interrupted:
@@ -254,6 +256,8 @@ def _end(
     if unmet:
         for text in unmet:
             typer.secho(f"required: {text}", fg="red", err=True)
+        for text in conflicts:
+            typer.secho(f"cannot be kept: {text}", fg="red", err=True)
         raise typer.Exit(1)
 
 

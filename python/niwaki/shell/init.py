@@ -67,7 +67,6 @@ from pathlib import Path
 
 import niwaki as nw
 from house import house
-from niwaki.shell import requirements
 
 FOLDER = Path(__file__).parent
 
@@ -75,8 +74,8 @@ FOLDER = Path(__file__).parent
 def test_the_house_grows_into_its_target():
     target = nw.Target.load(FOLDER / "target.obj")
     result = nw.grow(house, target, rounds=4, seed=1)
-    rules = requirements.load(FOLDER / "requirements.toml")
-    assert rules.unmet(result.best) == []
+    keep = nw.Keep.load(FOLDER / "requirements.toml")
+    assert keep.unmet(result.best) == []
 '''
 
 README = """# House

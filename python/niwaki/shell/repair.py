@@ -70,6 +70,12 @@ def repair(
         str | None,
         typer.Option("--up", metavar="y|z", help="The axis that points up. Default: z for OpenSCAD, else y."),
     ] = None,
+    target: Annotated[
+        Path | None,
+        typer.Option(
+            "--target", metavar="FILE", help="A mesh to fill, of which `covered` and `outside` are shares."
+        ),
+    ] = None,
     as_json: Json = False,
 ) -> None:
     """Repair SCRIPT by few of its own numbers, so that it keeps its requirements. Shows a patch; writes it if accepted.
@@ -88,6 +94,7 @@ def repair(
             workers=workers,
             limit=limit,
             up=up,
+            target=target,
             progress=lambda trial: show(progress_text(trial)),
         )
     if as_json:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import msgspec
 from msgspec import Struct
 
+from niwaki.requirements.rows import RequirementRow
+
 
 class FunctionRow(Struct):
     """A function of a model; a function without sites is pure."""
@@ -27,25 +29,6 @@ class AdviceRow(Struct):
     code: str
     line: int
     text: str
-
-
-class RequirementRow(Struct):
-    """A requirement beside a model.
-
-    Attributes
-    ----------
-    name, text
-        Its key in the file, and the requirement in words.
-    holds
-        Whether the judged run keeps it; None where no run was judged.
-    value
-        The value of the judged run, in words.
-    """
-
-    name: str
-    text: str
-    holds: bool | None = None
-    value: str = ""
 
 
 class CheckReport(Struct):

@@ -13,6 +13,7 @@ import niwaki as nw
 import numpy as np
 import pytest
 from niwaki.errors import InputError
+from niwaki.fitting.meshes import mesh_of
 from niwaki.repairing.literals import literals
 from niwaki.repairing.prediction import Rules, changes, derivatives
 from niwaki.repairing.result import edits_of
@@ -237,17 +238,61 @@ def test_the_command_says_why_there_is_no_patch(tmp_path: Path, monkeypatch: pyt
     keep = tmp_path / "keep.toml"
     keep.write_text("collisions = false\nwithin = [[-1, 0, -1], [1, 2.5, 1]]\n")
     done = run("repair", "impossible.py", "--keep", keep, "--workers", 0)
-    assert done.exit_code == 1 and "within (lamp) stands against" in done.output
+    assert done.exit_code == 1 and "`within (lamp)` stands against" in done.output
 
 
-@pytest.mark.parametrize(
-    "text", ["thinnest = 0.1\n", "height = [3, 2]\n", "within = [[1, 0, 0], [0, 1, 1]]\n", "x = 1\n", ""]
-)
+@pytest.mark.parametrize("text", ["height = [3, 2]\n", "within = [[1, 0, 0], [0, 1, 1]]\n", "x = 1\n", ""])
 def test_requirements_that_a_repair_cannot_keep_are_refused(text: str, room: Path) -> None:
     keep = room.parent / "keep.toml"
     keep.write_text(text)
     with pytest.raises(InputError, match="bad-requirements"):
         nw.repair(room, keep, workers=0)
+
+
+TABLE = """from niwaki import box
+thickness = 0.01
+parts = {
+    "top": box((0.0, 0.7, 0.0), (1.4, thickness, 0.8)),
+    "legs": [box((x, 0.35, 0.0), (0.05, 0.68, 0.6)) for x in (-0.5, 0.5)],
+}
+"""
+ARM = """from niwaki import box
+reach = 1.6
+parts = {"foot": box((0, 0.25, 0), (0.5, 0.5, 0.5)), "arm": box((reach, 0.7, 0), (2, 0.4, 0.3))}
+"""
+
+
+def test_a_part_that_is_too_thin_gets_its_thickness_once_that_is_freed(room: Path) -> None:
+    room.write_text(TABLE)
+    keep = nw.Keep(thinnest=0.03)
+    stays = nw.repair(room, keep, workers=0)
+    # The legs are two solids of one part, each as thick as it is required.
+    assert [row.key for row in stays.before] == [("thinnest", ("top",))]
+    assert "sizes stay as they are unless they are freed: thickness" in stays.conflicts[0].reason
+    patch = nw.repair(room, keep, workers=0, free=["thickness"]).best
+    assert patch is not None and [edit.after for edit in patch.edits] == ["0.03"]
+
+
+def test_what_falls_over_is_moved_above_its_feet(room: Path) -> None:
+    room.write_text(ARM)
+    repair = nw.repair(room, nw.Keep(stands=True, supported=True), workers=0, fix=[3])
+    assert {row.requirement for row in repair.before} == {"stands", "supported"}
+    patch = repair.best
+    assert patch is not None and patch.repairs and [edit.line for edit in patch.edits] == [2]
+
+
+def test_the_share_of_a_target_is_measured_where_there_is_one(room: Path) -> None:
+    room.write_text(
+        "from niwaki import box\nx = 0.4\nparts = {'cube': box((x, 0.5, 0.0), (1.0, 1.0, 1.0))}\n"
+    )
+    target = nw.Target(*mesh_of(nw.box((0.0, 0.5, 0.0), (1.0, 1.0, 1.0))))
+    keep = nw.Keep(covered=0.95, outside=0.05)
+    repair = nw.repair(room, keep, workers=0, target=target)
+    assert [row.title for row in repair.before] == ["covered", "outside"]
+    assert repair.best is not None and repair.best.repairs
+    for goal, solid in ((keep, None), (nw.Keep(stands=True), target)):
+        with pytest.raises(InputError, match="flag-alone"):
+            nw.repair(room, goal, workers=0, target=solid)
 
 
 def test_a_script_that_fails_or_has_nothing_to_change_says_so(tmp_path: Path) -> None:

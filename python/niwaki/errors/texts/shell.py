@@ -25,8 +25,8 @@ SHELL = (
         "bad-requirements",
         "`{path}` does not describe requirements",
         why="{reason}",
-        help="write `covered`, `outside`, `height`, `thinnest`, `stands` and `collisions` as needed, each at most once; for "
-        "`niwaki repair` write `collisions`, `within`, `supported` and `height`",
+        help="requirements are `covered`, `outside`, `height`, `within`, `thinnest`, `stands`, `supported` and `collisions`: "
+        "write those that you need, for instance `height = [2.0, 3.0]` or `collisions = false`",
         example="height = [3.0, 2.0]",
         cure="height = [2.0, 3.0]",
     ),

@@ -119,13 +119,13 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
             progress=progress,
         )
 
-    result = requirements.keeping(requirements.beside(model), attempt, job.seed, count)
+    result, conflicts = requirements.keeping(requirements.beside(model), attempt, job.seed, count)
     kinds = dict(zip(map(id, result.samples), named(result), strict=True))
     result.samples = variety.spread(ended(result), settings.count, settings.strength)
     answer = _answer(result, model, job.run, job.file, "run", send, job.id)
     words = [", ".join(f"{name}: {value}" for name, value in kinds[id(sample)]) for sample in result.samples]
     outcomes = [structs.replace(each, kind=text) for each, text in zip(answer.outcomes, words, strict=True)]
-    return structs.replace(answer, outcomes=outcomes)
+    return structs.replace(answer, outcomes=outcomes, note="; ".join(filter(None, [answer.note, *conflicts])))
 
 
 def spending(effort: float) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from typing import Any
 
 import niwaki as nw
 from niwaki.errors.files import ensure_folder, write_whole
+from niwaki.requirements import Keep
 from niwaki.result import Result, Sample
 from niwaki.search.data import Reader, Writer
 from niwaki.shell import requirements, run_files
@@ -69,7 +70,7 @@ def store(
     return [outcome(each, Key(run, number), origin, rules) for number, each in enumerate(result.samples)]
 
 
-def outcome(result: Sample, key: Key, origin: str, rules: requirements.Requirements | None = None) -> Outcome:
+def outcome(result: Sample, key: Key, origin: str, rules: Keep | None = None) -> Outcome:
     """Describe a result for the gallery, with the requirements beside its model that it does not keep."""
     numbers = run_files.numbers(result)
     shares = {name: numbers[name] for name in ("similarity", "covered", "outside")}

@@ -79,8 +79,9 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
         result.interrupted = draws.interrupted
         return result
 
-    result = requirements.keeping(requirements.beside(model), attempt, job.seed, settings.count)
-    return _answer(result, model, job, "run", send, result.interrupted)
+    result, conflicts = requirements.keeping(requirements.beside(model), attempt, job.seed, settings.count)
+    answer = _answer(result, model, job, "run", send, result.interrupted)
+    return replace(answer, note="; ".join(conflicts))
 
 
 def _answer(
