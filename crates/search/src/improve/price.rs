@@ -1,8 +1,8 @@
 //! The price of work, in instructions of a processor: a count, so that it is the same on every machine.
 //!
 //! A unit of work is a particle step, a proposal or a moved shape. Its price depends on the model, so it is estimated from one run.
-//! The price has the model's instructions, the calls of functions of the host, and the corners of shapes and the cells of those
-//! that are not convex, which decide how long sketches look at a shape. All are divided by the number of barriers of the run. The factors are rounded from counts of callgrind
+//! The price has the model's instructions, the calls of functions of the host, and what decides how long sketches look at a shape:
+//! its corners, and the cells of a shape that is not convex. All are divided by the number of barriers of the run. The factors are rounded from counts of callgrind
 //! (`benches/counts.json`) and from the processor seconds of the problems of `benches/board.py`.
 
 use niwaki_chain::walk::state::State;
@@ -69,7 +69,8 @@ fn of_shape(shape: &Shape, task: &Task) -> u64 {
     if shape.is_aligned_box() {
         return ALIGNED_CORNER * corners;
     }
-    if shape.convex().is_some() {
+    // The cells of a cut are found by those of its solids, of which most are convex.
+    if shape.convex().is_some() || shape.cut().is_some() {
         return CORNER * corners;
     }
     let grids = task.sketches.iter().filter_map(|sketch| sketch.grid());
