@@ -198,6 +198,8 @@ def test_two_windows_share_a_session_and_have_separate_views(open_page, served):
     count = first.evaluate("window.__studio.view.results.length")
     until(second, f"window.__studio.view.results.length == {count}")
     at_rest(second)
+    for page in (first, second):
+        until(page, "window.__studio.isStill")
     before, camera_text = camera(second), first.evaluate("String(window.__studio.camera)")
     first.mouse.move(700, 400)
     first.mouse.down()

@@ -15,7 +15,7 @@ use crate::vector::{Vec3, vec3};
 pub const PLANE: f64 = 1e-5;
 /// The number of cells up to which all cells of a row are tested.
 const SHORT_ROW: i64 = 4;
-/// The component along x from which a direction bounds a row.
+/// The component along x from which the first direction bounds a row.
 const LEAST_SLOPE: f64 = 1e-6;
 
 /// A dense set of cells in a box, x in the bits of words. Unlike a grid, the box may start below zero.
@@ -277,8 +277,6 @@ struct Axis {
     direction: Vec3,
     low: f64,
     high: f64,
-    /// Cells along x for a step along the direction; zero where it hardly leads along x.
-    cells: f64,
 }
 
 impl Axis {
@@ -292,8 +290,11 @@ impl Axis {
 /// The directions along which a triangle and a cell may be apart.
 #[derive(Default)]
 struct Axes {
+    /// The triangle's normal is the first, where the triangle has a plane.
     axes: [Axis; 10],
     count: usize,
+    /// Cells along x for a step along the first direction; zero where it hardly leads along x.
+    cells: f64,
 }
 
 impl Axes {
@@ -303,22 +304,17 @@ impl Axes {
         self.axes[..self.count].iter().all(|axis| axis.meets(middle))
     }
 
-    /// The cells of a row along x that may meet the triangle: all that do, and at most two more where directions bound the row.
+    /// The cells of a row along x that the plane of the triangle may meet: all that it does, and at most two more.
+    #[inline]
     fn part_of_row(&self, [first, last]: [i64; 2], y: f64, z: f64) -> [i64; 2] {
-        if last - first < SHORT_ROW {
+        let Axis { direction, low, high } = self.axes[0];
+        if last - first < SHORT_ROW || self.cells == 0.0 {
             return [first, last];
         }
-        let (mut low, mut high) = (first as f64, last as f64);
-        for axis in &self.axes[..self.count] {
-            if axis.cells != 0.0 {
-                let rest = axis.direction.y * y + axis.direction.z * z;
-                let [a, b] = [axis.low, axis.high].map(|end| (end - rest) * axis.cells - 0.5);
-                // Rounding moves a bound by less than a cell.
-                low = low.max(a.min(b) - 1.0);
-                high = high.min(a.max(b) + 1.0);
-            }
-        }
-        [low.ceil() as i64, high.floor() as i64]
+        let rest = direction.y * y + direction.z * z;
+        let [a, b] = [low, high].map(|end| (end - rest) * self.cells - 0.5);
+        // Rounding moves a bound by less than a cell.
+        [(a.min(b) - 1.0).max(first as f64).ceil() as i64, (a.max(b) + 1.0).min(last as f64).floor() as i64]
     }
 }
 
@@ -333,10 +329,11 @@ fn separating_axes(t: &[Vec3; 3]) -> Axes {
         let half = 0.5 * (direction.x.abs() + direction.y.abs() + direction.z.abs()) + PLANE;
         let low = along[0].min(along[1]).min(along[2]) - half;
         let high = along[0].max(along[1]).max(along[2]) + half;
-        let cells = if direction.x.abs() > LEAST_SLOPE { 1.0 / direction.x } else { 0.0 };
-        all.axes[all.count] = Axis { direction, low, high, cells };
+        all.axes[all.count] = Axis { direction, low, high };
         all.count += 1;
     }
+    let slope = all.axes[0].direction.x;
+    all.cells = if slope.abs() > LEAST_SLOPE { 1.0 / slope } else { 0.0 };
     all
 }
 

@@ -1,8 +1,8 @@
 //! Machine code as a program stores it: its inputs, its exits, and how it runs. This module does not know who
 //! writes the code, or how.
 
-use super::kinds::{Kind, Reg};
 use super::operand::{FunctionId, Operand};
+use super::register::{Kind, Reg};
 use std::any::Any;
 
 /// A function over the words that [`words`] describes. It returns the number of the exit that it took.

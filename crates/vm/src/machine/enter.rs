@@ -4,7 +4,7 @@ use super::registers::Registers;
 use super::state::State;
 use super::workspace::{Machine, PureCall};
 use crate::code::entries::Entry;
-use crate::code::kinds::{FreshForm, Kind, Part, Reg, is_counted};
+use crate::code::register::{FreshForm, Kind, Part, Reg, is_counted};
 use crate::code::routine::{Exit, Input, Routine, words};
 use crate::code::{FunctionId, Mode, Program};
 use crate::native;

@@ -7,7 +7,7 @@
 #![allow(unsafe_code)] // The code that `write` makes passes addresses.
 
 use crate::builtins::builtin;
-use crate::code::kinds::Kind;
+use crate::code::register::Kind;
 use crate::value::{Range, Value, index, iter_len};
 use niwaki_math::Scalar;
 

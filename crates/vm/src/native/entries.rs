@@ -5,7 +5,7 @@ use super::flow::{entries, registers};
 use super::routine::routine;
 use super::write::Contents;
 use crate::code::entries::{Entries, Entry, is_full};
-use crate::code::kinds::Reg;
+use crate::code::register::Reg;
 use crate::code::{Function, FunctionId, Program};
 use crate::value::Value;
 use niwaki_math::Scalar;

@@ -4,7 +4,7 @@
 use super::functions::has_machine_code;
 use crate::builtins::builtin;
 use crate::code::flow::{Bits, live_before, reads_and_writes, successors};
-use crate::code::kinds::Reg;
+use crate::code::register::Reg;
 use crate::code::{Function, Mode, Op, Operand, Place};
 use niwaki_math::Scalar;
 use std::collections::BTreeSet;

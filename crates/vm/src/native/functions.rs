@@ -4,7 +4,7 @@ use super::calls;
 use super::typed::{Number, Typed};
 use super::write::{ARGUMENTS, Cursor, PLAIN, Progress, Writer};
 use crate::builtins::builtin;
-use crate::code::kinds::{FreshForm, Kind};
+use crate::code::register::{FreshForm, Kind};
 use crate::code::{Args, Operand};
 use niwaki_native::codegen::ir::condcodes::{FloatCC, IntCC};
 use niwaki_native::codegen::ir::types::{F64, I64};

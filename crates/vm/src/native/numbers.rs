@@ -3,7 +3,7 @@
 use super::typed::Typed;
 use super::write::{Cursor, Writer};
 use crate::code::Binary;
-use crate::code::kinds::FreshForm;
+use crate::code::register::FreshForm;
 use niwaki_native::codegen::ir::condcodes::{FloatCC, IntCC};
 use niwaki_native::codegen::ir::types::{F64, I64};
 use niwaki_native::codegen::ir::{InstBuilder, Value};

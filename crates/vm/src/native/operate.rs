@@ -3,7 +3,7 @@
 use super::calls::{self, NO_ANSWER};
 use super::typed::{Number, Typed, TypedOperand};
 use super::write::{Cursor, PLAIN, Progress, Writer};
-use crate::code::kinds::{Form, FreshForm, Kind};
+use crate::code::register::{Form, FreshForm, Kind};
 use crate::code::routine::Call;
 use crate::code::routine::words;
 use crate::code::{Args, Binary, FunctionId, Op, Operand};

@@ -2,7 +2,7 @@
 
 use super::typed::{Number, Typed, TypedOperand};
 use super::write::{Cursor, Writer};
-use crate::code::kinds::{Kind, Part, Reg};
+use crate::code::register::{Kind, Part, Reg};
 use crate::code::routine::words;
 use crate::code::{Operand, Place};
 use crate::value::Value as Model;

@@ -1,7 +1,7 @@
 //! Writes machine code for one combination of kinds.
 
 use super::write::{Contents, Writer};
-use crate::code::kinds::Reg;
+use crate::code::register::Reg;
 use crate::code::routine::{Instructions, Routine, Start};
 use crate::code::{FunctionId, Program};
 use niwaki_native::codegen::ir::types::I64;

@@ -1,6 +1,6 @@
 //! Values in the processor.
 
-use crate::code::kinds::{Form, FreshForm, Kind, Part};
+use crate::code::register::{Form, FreshForm, Kind, Part};
 use crate::value::Value as Model;
 use niwaki_native::codegen::ir::Value;
 

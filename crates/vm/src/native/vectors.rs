@@ -5,7 +5,7 @@ use super::calls;
 use super::typed::{Number, Typed};
 use super::write::{Cursor, PLAIN, Writer};
 use crate::code::Binary;
-use crate::code::kinds::{Form, FreshForm};
+use crate::code::register::{Form, FreshForm};
 use crate::value::Value as Model;
 use niwaki_native::codegen::ir::condcodes::FloatCC;
 use niwaki_native::codegen::ir::types::{F64, I64};

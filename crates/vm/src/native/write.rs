@@ -8,7 +8,7 @@
 
 use super::flow::{Flow, registers};
 use super::typed::{Number, Typed};
-use crate::code::kinds::{FreshForm, Kind, Reg, is_counted};
+use crate::code::register::{FreshForm, Kind, Reg, is_counted};
 use crate::code::routine::words;
 use crate::code::routine::{Call, Exit, Input};
 use crate::code::{Function, FunctionId, Operand, Place, Program};
