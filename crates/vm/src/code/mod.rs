@@ -3,7 +3,7 @@
 //! * `operand`, `op`, `site`, `function`: operands, instructions, suspension sites, functions and programs;
 //! * `flow`: the registers that instructions read and write, and which registers are live; `verify`: the check
 //!   of a program; `disassemble`: its text; `convert`: the program over another scalar;
-//! * `entries`, `routine`, `kinds`: the places where machine code may begin, the code itself, and the registers
+//! * `entries`, `routine`, `register`: the places where machine code may begin, the code itself, and the registers
 //!   that it reads;
 //! * `observed`: whether observations mix probabilities and densities.
 //!
