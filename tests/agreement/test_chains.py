@@ -25,7 +25,7 @@ from niwaki.words import Bernoulli, Gaussian, clip
 from programs import shrink
 from test_engine import NOT_A_PROGRAM, load
 
-QUICK = (120, 120)
+QUICK = (80, 100)
 LONG = (1200, 1000)
 
 KERNELS = (

@@ -15,7 +15,7 @@ from niwaki.errors import ModelError, ModelFault
 from niwaki.lang.plain import Run, run_python
 from programs import program, shrink
 
-SEEDS = 120
+SEEDS, MORE = 80, 400
 NOT_A_PROGRAM = {"unknown-name", "used-before-assigned", "captured-then-changed"}
 
 
@@ -56,7 +56,9 @@ def differs(text: str) -> str:
     return ""
 
 
-@pytest.mark.parametrize("seed", range(SEEDS))
+@pytest.mark.parametrize(
+    "seed", [*range(SEEDS), *(pytest.param(seed, marks=pytest.mark.soak) for seed in range(SEEDS, MORE))]
+)
 def test_random_program(seed: int) -> None:
     whole = program(seed, inner=False)
     if differs(whole.text):

@@ -22,7 +22,7 @@ from niwaki.errors import ModelError, ModelFault, NiwakiError
 from niwaki.lang.plain import Run, run_python
 from programs import program, shrink
 
-PROGRAMS = 300
+PROGRAMS, MORE = 200, 1000
 NOT_A_PROGRAM = {"unknown-name", "used-before-assigned", "captured-then-changed"}
 
 
@@ -131,7 +131,10 @@ def differs(text: str, seeds: int = 2) -> str:
     return ""
 
 
-@pytest.mark.parametrize("seed", range(PROGRAMS))
+@pytest.mark.parametrize(
+    "seed",
+    [*range(PROGRAMS), *(pytest.param(seed, marks=pytest.mark.soak) for seed in range(PROGRAMS, MORE))],
+)
 def test_random_program(seed: int) -> None:
     whole = program(10_000 + seed)
     if differs(whole.text):

@@ -17,7 +17,7 @@ from niwaki.result.gradient import LogDensity
 from programs import program
 from test_engine import load
 
-PROGRAMS = 150
+PROGRAMS = 100
 #: Why a random program may have no density.
 WITHOUT = {"no-continuous-choices", "no-derivative", "impossible-trace"}
 

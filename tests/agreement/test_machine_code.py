@@ -21,7 +21,7 @@ def agree(first: int, count: int, kind: str) -> None:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_machine_code_agrees_on_random_programs(kind: str) -> None:
-    agree(8_000_000, 60, kind)
+    agree(8_000_000, 40, kind)
 
 
 @pytest.mark.soak

@@ -102,10 +102,10 @@ KERNELS = {
 }
 
 
-def t_values(model: Any, kernel: k.Kernel, seed: int = 5, **settings: Any) -> float:
+def t_values(model: Any, kernel: k.Kernel, steps: int = 22_000, seed: int = 5, **settings: Any) -> float:
     """The largest |t| over the values of a model."""
     exact = nw.run(model, method=nw.enumerate_all()).distribution()
-    result = nw.run(model, nw.mh(steps=42_000, warmup=2_000, thin=2, kernel=kernel, **settings), seed=seed)
+    result = nw.run(model, nw.mh(steps=steps, warmup=2_000, thin=2, kernel=kernel, **settings), seed=seed)
     values = [sample.value for sample in result]
     stretches = np.array_split(np.arange(len(values)), 40)
     largest = 0.0
@@ -117,10 +117,11 @@ def t_values(model: Any, kernel: k.Kernel, seed: int = 5, **settings: Any) -> fl
     return largest
 
 
+@pytest.mark.parametrize("steps", [22_000, pytest.param(102_000, marks=pytest.mark.soak)])
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("kernel", KERNELS)
-def test_kernels_answer_as_enumeration_does(kernel: str, name: str) -> None:
-    assert t_values(MODELS[name], KERNELS[kernel]) < 6
+def test_kernels_answer_as_enumeration_does(kernel: str, name: str, steps: int) -> None:
+    assert t_values(MODELS[name], KERNELS[kernel], steps) < 6
 
 
 @pytest.mark.parametrize("strategy", ["c3", "resume", "cache", "rerun"])

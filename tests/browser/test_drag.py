@@ -1,9 +1,11 @@
 """Dragging a part in a browser: it moves to the pointer, or a line of text tells the reason; Esc cancels the drag.
 
-A test also records the animation of the manual, into `out/studio/drag.gif`.
+For `make studio-pictures` a test also records the animation of the manual, into `out/studio/drag.gif`.
 """
 
 from __future__ import annotations
+
+import os
 
 import numpy as np
 import pytest
@@ -13,6 +15,8 @@ from studio_page import OUT, at_rest, choose, click_part, grow, picture, timed, 
 
 #: The frames of the animation: size in pixels, colours, and duration, milliseconds.
 SIZE, COLORS, STEP = (480, 400), 64, 90
+#: Whether the animation is recorded; otherwise the pointer makes larger steps.
+IS_RECORDED = bool(os.environ.get("NIWAKI_PICTURES"))
 #: The share of the scene's height in a frame.
 ZOOM = 0.86
 
@@ -55,22 +59,27 @@ def test_a_branch_goes_to_the_pointer_and_the_rest_is_grown_again(tree):
     picked = page.evaluate("window.__studio.view.picked")
     before = np.array(page.evaluate("window.__studio.camera"))
     page.evaluate("document.activeElement.blur()")
-    clip = clip_of(page)
-    frames = [frame(page, clip, (x, y))] * 6
+    clip, frames = clip_of(page), []
+
+    def record(count=1, at=None):
+        if IS_RECORDED:
+            frames.extend([frame(page, clip, at)] * count)
+
+    record(6, (x, y))
     page.mouse.move(x, y)
     page.mouse.down()
     with timed("drag"):
         page.mouse.move(x + 9, y - 5, steps=2)
         until(page, "window.__studio.shown.role == 'moving'")
-    for step in range(1, 15):
+    for step in range(1, 15) if IS_RECORDED else (5, 10, 14):
         to = (x + 9 + 7 * step, y - 5 - 4 * step)
         moves = page.evaluate("window.__studio.shown.moves")
         page.mouse.move(*to)
         until(page, f"window.__studio.shown.moves > {moves} && window.__studio.isStill")
-        frames.append(frame(page, clip, to))
+        record(1, to)
     drag = page.evaluate("window.__studio.drag")
     assert drag["left"] <= 0.01 or drag["reason"]
-    frames += [frames[-1]] * 6
+    record(6, to)
     page.keyboard.down("Shift")
     with timed("refit"):
         page.mouse.up()
@@ -78,9 +87,10 @@ def test_a_branch_goes_to_the_pointer_and_the_rest_is_grown_again(tree):
     page.keyboard.up("Shift")
     at_rest(page)
     until(page, "window.__studio.isStill")
-    frames += [frame(page, clip)] * 16
+    record(16)
     assert (np.array(page.evaluate("window.__studio.camera")) == before).all()
-    write(frames, [STEP] * len(frames), OUT / "drag.gif", COLORS)
+    if IS_RECORDED:
+        write(frames, [STEP] * len(frames), OUT / "drag.gif", COLORS)
 
 
 def test_escape_cancels_a_drag(tree):

@@ -67,11 +67,13 @@ def circles(graph: Graph) -> list[list[str]]:
     return sorted((each for each in sets if len(each) > 1), key=lambda each: (-len(each), each))
 
 
+@cache
 def room(file: str) -> str:
     """The crate of a file, or the package."""
     return PACKAGE if file.startswith(PACKAGE) else "/".join(PurePosixPath(file).parts[:2])
 
 
+@cache
 def folder(file: str) -> str:
     """The folder of a file; that of `x.rs` is `x`, if there is one."""
     path = PurePosixPath(file)

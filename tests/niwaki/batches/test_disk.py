@@ -29,7 +29,7 @@ def thread() -> Iterator[ThreadPoolExecutor]:
 def test_a_batch_goes_on_after_each_fault_of_the_disk(
     has_results: bool, tmp_path: Path, thread: ThreadPoolExecutor
 ) -> None:
-    def search(folder: Path, seeds: int = 3) -> None:
+    def search(folder: Path, seeds: int = 2) -> None:
         # A chunk for each search: several appends.
         list(nw.batch(batched.PILES, seeds=seeds, folder=folder, executor=thread, chunk=0.0))
 

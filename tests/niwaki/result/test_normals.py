@@ -132,8 +132,8 @@ def test_ctrl_c_keeps_the_best_so_far():
 
 def test_progress_is_reported():
     seen: list[int] = []
-    method = nw.vi("full-rank", samples=500, draws=100)
-    nw.run(many, 200, method=method, seed=1, progress=lambda p: seen.append(p.done))
+    method = nw.vi("full-rank", samples=100, draws=100)
+    nw.run(many, 40, method=method, seed=1, progress=lambda p: seen.append(p.done))
     assert seen == sorted(seen) and seen[-1] > 0
 
 
