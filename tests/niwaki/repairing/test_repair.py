@@ -269,8 +269,11 @@ def test_a_part_that_is_too_thin_gets_its_thickness_once_that_is_freed(room: Pat
     # The legs are two solids of one part, each as thick as it is required.
     assert [row.key for row in stays.before] == [("thinnest", ("top",))]
     assert "sizes stay as they are unless they are freed: thickness" in stays.conflicts[0].reason
-    patch = nw.repair(room, keep, workers=0, free=["thickness"]).best
+    trials: list[Any] = []
+    patch = nw.repair(room, keep, workers=0, free=["thickness"], progress=trials.append).best
     assert patch is not None and [edit.after for edit in patch.edits] == ["0.03"]
+    # The first plan is right: the thickness of a part that is stretched is predicted.
+    assert trials[0].values == trials[-1].values and not trials[0].failed
 
 
 def test_what_falls_over_is_moved_above_its_feet(room: Path) -> None:
