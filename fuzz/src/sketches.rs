@@ -6,8 +6,8 @@ use arbitrary::Unstructured;
 use niwaki_geom::view::{Camera, Lens};
 use niwaki_geom::{
     Aabb, CellWeight, Drawing, Look, Page, Picture, Place, Primitive, Rule, Shape, Sketch, SketchSpec,
-    Sketches, Target, TargetPicture, Texture, Vec3, avoid, fill_drawing, floor, match_drawing, match_image,
-    limits, match_shadow, match_volume, match_volume_by, no_overshoot, no_self_intersection, vec3,
+    Sketches, Target, TargetPicture, Texture, Vec3, avoid, fill_drawing, floor, limits, match_drawing,
+    match_image, match_shadow, match_volume, match_volume_by, no_overshoot, no_self_intersection, vec3,
 };
 use std::sync::{Arc, OnceLock};
 
