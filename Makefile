@@ -82,7 +82,7 @@ PYTHONS :=
 MINUTES := 10
 JOBS := 1
 
-.PHONY: all demo guides test test-binaries lint-rust lint-python studio-page test-studio studio-pictures blender test-blender blender-pictures lint counts recorded bench bench-c3 bench-hmc bench-vi bench-wait bench-sketches bench-drag bench-searches bench-fit bench-batch check-files figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean imports words bench-fit-intervals bench-fit-furniture bench-fit-blender bench-repair
+.PHONY: all demo guides test test-rust test-python lint-rust lint-python studio-page test-studio studio-pictures blender test-blender blender-pictures lint counts recorded bench bench-c3 bench-hmc bench-vi bench-wait bench-sketches bench-drag bench-searches bench-fit bench-batch check-files figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean imports words bench-fit-intervals bench-fit-furniture bench-fit-blender bench-repair
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -107,13 +107,13 @@ $(STAMPS)/engine: $(RUST) pyproject.toml $(STAMPS)/core $(STAMPS)/build
 demo: $(STAMPS)/engine
 	$(PY) -m niwaki.shell.demo out
 
-# What `make test` runs of the engine: to be built beside something else. Without examples, which clippy reads.
-test-binaries: $(STAMPS)/engine
-	cargo test $(CARGO_FLAGS) --workspace --tests --no-run
+test: test-rust test-python
 
-test: $(STAMPS)/engine $(STAMPS)/test
+test-rust: $(STAMPS)/engine
 	cargo test $(CARGO_FLAGS) --workspace --tests
 	cargo test $(CARGO_FLAGS) --workspace --doc
+
+test-python: $(STAMPS)/engine $(STAMPS)/test
 	$(PY) -m pytest -n auto --dist worksteal
 
 # The types of the page come from the messages; the bundle is committed, and a test compares it where node is found.

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import compileall
 import os
 import signal
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+import niwaki
 import pytest
 from niwaki.errors import NiwakiError
 
@@ -18,6 +20,13 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 
 # Tests are about what is around a search, and searches are short, also in processes that tests start.
 os.environ.setdefault("NIWAKI_ROUNDS", "15")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    # Tests start hundreds of processes. Where the environment forbids Python to write bytecode, each would compile the
+    # package again.
+    if not hasattr(config, "workerinput"):
+        compileall.compile_dir(Path(niwaki.__file__).parent, quiet=2)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

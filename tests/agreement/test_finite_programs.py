@@ -56,9 +56,9 @@ STRATEGIES = ("c3", "rerun", "resume", "cache")
 RESAMPLING = ("systematic", "residual", "stratified", "multinomial", "tempered")
 
 #: Programs of `make test`; the long test tries new ones for as long as it is told.
-PROGRAMS = 20
+PROGRAMS = 14
 #: Those with memoised functions.
-MEMOISED = 12
+MEMOISED = 8
 #: States of a chain.
 STATES = 150
 #: As many values of a method's samples are run again in plain Python.
@@ -68,8 +68,9 @@ MOST_RUNS = 5000
 #: Values less probable are not counted.
 LEAST_SHARE = 0.05
 FIRST_LIMIT, LIMIT = 5.0, 7.0
-#: Populations, runs of particle Gibbs, and batches of a chain at the first look; the second has sixteen times as many.
-POPULATIONS, STARTS, BATCHES, BATCH, TIMES = 150, 60, 40, 20, 16
+#: Populations, annealed searches, runs of particle Gibbs, and batches of a chain at the first look; the second has
+#: sixteen times as many.
+POPULATIONS, ANNEALED, STARTS, BATCHES, BATCH, TIMES = 150, 60, 60, 40, 20, 16
 
 #: Of programs with memoised functions: no part of a run can be grown again.
 SHARED = kernels.mixture(kernels.prior(), kernels.neighbour(), kernels.regenerate(1))
@@ -229,7 +230,7 @@ def check_samples(
         scores = exact.of_chain([repr(sample.value) for sample in samples])
     elif name == "AIS":
         method = annealed(seed, moves)
-        searches = [nw.run(model, method, seed=seed + i, threads=1) for i in range(POPULATIONS * times)]
+        searches = [nw.run(model, method, seed=seed + i, threads=1) for i in range(ANNEALED * times)]
         scores = exact.of_searches(searches)
         samples = [sample for search in searches for sample in search]
     else:
@@ -444,11 +445,13 @@ def test_what_several_places_write_is_not_set_back() -> None:
 @pytest.mark.parametrize("name", METHODS)
 def test_a_factor_that_counts_twice_is_seen(name: str) -> None:
     """The mutant of every method: what it follows is not the program that it is judged by. At `TIMES` particle Gibbs is
-    about as far off as the limit, so the wrong program is looked at twice as often.
+    about as far off as the limit, so it looks at the wrong program twice as often; the others are off by twice the
+    limit at a quarter.
     """
     twice = load(ONCE.replace("0.6 * k", "1.2 * k"))
-    assert check_samples(load(ONCE), Exact(load(ONCE)), name, TIMES, 5, Tally())[1] < FIRST_LIMIT
-    assert check_samples(twice, Exact(load(ONCE)), name, 2 * TIMES, 5, Tally())[1] > LIMIT
+    few, many = TIMES // 4, 2 * TIMES if name in gibbs(0) else TIMES // 4
+    assert check_samples(load(ONCE), Exact(load(ONCE)), name, few, 5, Tally())[1] < FIRST_LIMIT
+    assert check_samples(twice, Exact(load(ONCE)), name, many, 5, Tally())[1] > LIMIT
 
 
 def test_an_executor_that_answers_a_look_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,18 +1,18 @@
 """Claim: at parameters whose mass is at the ends of an interval every method has the same law, and values stay inside.
 
 A value is a number of 64 bits inside its interval; the last one at each end stands for everything beyond it. Shares
-of the coordinate on either side of a few places have their exact answers by quadrature over the coordinate, which has
-no end. An estimate is held within 4.5 standard errors (of chains by batch means): once in 150,000 a true one is not,
-and about 200 are judged. Of every family that has coordinates, the density over them integrates to one: over the
-line, or over one turn of an angle, which is what `vi` takes it over.
+of the coordinate on either side of a few places have their exact answers by the distribution function. An estimate is
+held within 4.5 standard errors (of chains by batch means): once in 150,000 a true one is not, and about 200 are judged.
+Of every family that has coordinates, the density over them integrates to one: over the line, or over one turn of an
+angle, which is what `vi` takes it over.
 """
 
 from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 
 import niwaki as nw
 import numpy as np
@@ -69,53 +69,49 @@ def vague(y):
 
 @dataclass(frozen=True)
 class Case:
-    """A distribution, the coordinates of its values, and the log density over them, also beyond all numbers."""
+    """A distribution, the coordinates of its values, and the probability that the coordinate is below a place."""
 
     name: str
     distribution: object
-    log_density: object
+    below: Callable[[float], float]
     unit: bool
 
     def coordinate(self, x: np.ndarray) -> np.ndarray:
         return np.log(x) - np.log1p(-x) if self.unit else np.log(x)
 
-    @cached_property
-    def below(self) -> dict[float, float]:
-        """The probabilities that the coordinate is below each of the places."""
-        v = np.linspace(-60_000.0, 60_000.0, 12_000_001)
-        density = np.exp(self.log_density(v))
-        # Rounding may leave a share above one.
-        return {place: min(1.0, float(density[v < place].sum() / density.sum())) for place in PLACES}
-
 
 def beta(a, b):
-    def log(v):
-        return -a * np.logaddexp(0.0, -v) - b * np.logaddexp(0.0, v) - special.betaln(a, b)
+    def below(v):
+        # Only the smaller of `x` and `1 - x` has all its digits.
+        return (
+            special.betainc(a, b, special.expit(v)) if v < 0.0 else special.betaincc(b, a, special.expit(-v))
+        )
 
-    return Case(f"beta({a}, {b})", Beta(a, b), log, True)
+    return Case(f"beta({a}, {b})", Beta(a, b), below, True)
 
 
 def gamma(shape, scale):
-    def log(v):
-        with np.errstate(over="ignore"):
-            return shape * (v - math.log(scale)) - np.exp(v) / scale - math.lgamma(shape)
-
-    return Case(f"gamma({shape}, {scale})", Gamma(shape, scale), log, False)
+    return Case(
+        f"gamma({shape}, {scale})",
+        Gamma(shape, scale),
+        lambda v: special.gammainc(shape, math.exp(v) / scale),
+        False,
+    )
 
 
 def inverse_gamma(shape, scale):
-    def log(v):
-        with np.errstate(over="ignore"):
-            return shape * (math.log(scale) - v) - scale * np.exp(-v) - math.lgamma(shape)
-
-    return Case(f"inverse_gamma({shape}, {scale})", InverseGamma(shape, scale), log, False)
+    return Case(
+        f"inverse_gamma({shape}, {scale})",
+        InverseGamma(shape, scale),
+        lambda v: special.gammaincc(shape, scale * math.exp(-v)),
+        False,
+    )
 
 
 def log_normal(mean, sd):
-    def log(v):
-        return -0.5 * ((v - mean) / sd) ** 2
-
-    return Case(f"log_normal({mean}, {sd})", LogNormal(mean, sd), log, False)
+    return Case(
+        f"log_normal({mean}, {sd})", LogNormal(mean, sd), lambda v: special.ndtr((v - mean) / sd), False
+    )
 
 
 CASES = [
@@ -146,7 +142,7 @@ def judged(case: Case, x: np.ndarray, weights: np.ndarray | None = None) -> None
     for place in PLACES:
         if case.unit and place > 36.0:
             continue
-        truth, side = case.below[place], (v < place).astype(float)
+        truth, side = float(case.below(place)), (v < place).astype(float)
         if weights is None:
             mean, error = float(side.mean()), batch_error(side)
         else:
@@ -190,9 +186,9 @@ def test_nuts(case):
 @pytest.mark.parametrize("case", [case for case in CASES if "gamma" not in case.name], ids=lambda c: c.name)
 def test_trajectories_among_other_kernels(case):
     kernel = kernels.cycle(kernels.nuts_step(), kernels.drift(5.0))
-    result = quiet(
-        alone, case.distribution, method=nw.mh(kernel=kernel, steps=40_000, chains=4, thin=4), seed=4
-    )
+    # Without a warm-up, steps that fit no coordinate of these widths cost twenty times as much.
+    method = nw.mh(kernel=kernel, steps=20_000, warmup=1_000, chains=4, thin=4)
+    result = quiet(alone, case.distribution, method=method, seed=4)
     judged(case, chains_of(result, 4))
 
 
@@ -279,8 +275,8 @@ def test_the_density_over_a_coordinate_integrates_to_one(family):
 
 def test_the_density_over_a_simplex_integrates_to_one():
     density = nw.log_density(nw.run(alone, Dirichlet([0.5, 1.0, 3.0]), seed=1).best)
-    v = np.arange(-60.0, 60.0, 0.25)
-    mass = sum(math.exp(density([a, b])) for a in v for b in v) * 0.25**2
+    v = np.arange(-60.0, 60.0, 0.5)
+    mass = sum(math.exp(density([a, b])) for a in v for b in v) * 0.5**2
     assert abs(mass - 1.0) < 1e-6
 
 

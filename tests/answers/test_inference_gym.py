@@ -11,6 +11,7 @@ from __future__ import annotations
 import importlib.util
 import math
 import runpy
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -147,11 +148,16 @@ def errors(result: nw.Result, truth: str, names: tuple[str, ...], turned: Any = 
     return np.abs(values.mean(axis=(1, 2)) - means) / np.hypot(ours, theirs)
 
 
-def nuts(**more: Any) -> Any:
-    return nw.nuts(draws=2500, warmup=1500, chains=4, **{"target_accept": 0.9, **more})
+@pytest.fixture(
+    params=[(1200, 1000), pytest.param((2500, 1500), marks=pytest.mark.soak)], ids=["short", "long"]
+)
+def nuts(request: pytest.FixtureRequest) -> Callable[..., Any]:
+    """Return a function for the method: four chains of a length, and further settings."""
+    draws, warmup = request.param
+    return lambda **more: nw.nuts(draws=draws, warmup=warmup, chains=4, **{"target_accept": 0.9, **more})
 
 
-def test_eight_schools() -> None:
+def test_eight_schools(nuts) -> None:
     result = nw.run(eight_schools, nuts(target_accept=0.98), EFFECTS, DEVIATIONS, seed=1)
     names = ("AVG_EFFECT", "LOG_STDDEV", "SCHOOL_EFFECTS")
     assert errors(result, "eight_schools", names).max() < 4
@@ -166,7 +172,7 @@ def brownian() -> tuple[list[float | None], float, float]:
     return with_gaps(seen, ~np.isnan(seen)), data["INNOVATION_NOISE"], data["OBSERVATION_NOISE"]
 
 
-def test_a_walk_with_a_gap_and_not_one_of_twice_the_noise() -> None:
+def test_a_walk_with_a_gap_and_not_one_of_twice_the_noise(nuts) -> None:
     seen, innovation, noise = brownian()
     result = nw.run(walk, nuts(), seen, innovation, noise, seed=2)
     assert errors(result, BROWNIAN, ("",)).max() < 4
@@ -193,7 +199,7 @@ def walk_by_quadrature(seen: list[float | None]) -> np.ndarray:
     return np.concatenate([scales, np.tensordot(weight, places, 2)])
 
 
-def test_a_walk_of_unknown_scales_by_quadrature_and_not_by_the_gym() -> None:
+def test_a_walk_of_unknown_scales_by_quadrature_and_not_by_the_gym(nuts) -> None:
     # The Gym's figures for this model are not its posterior means: quadrature, and any chain, is 20 of its standard
     # errors away. So the exact answer is the judge here.
     seen = brownian()[0]
@@ -211,7 +217,7 @@ def test_a_walk_of_unknown_scales_by_quadrature_and_not_by_the_gym() -> None:
     assert (exact[1] - theirs[0]) / theirs[1] > 15
 
 
-def test_convection() -> None:
+def test_convection(nuts) -> None:
     data = dataset("convection_lorenz_bridge")
     seen = with_gaps(data["OBSERVED_VALUES"], data["OBSERVATION_MASK"])
     assert data["OBSERVATION_INDEX"] == 0
@@ -227,7 +233,7 @@ def test_convection() -> None:
 
 
 @pytest.mark.parametrize("scale", ["log_", ""])
-def test_stochastic_volatility(scale: str) -> None:
+def test_stochastic_volatility(scale: str, nuts) -> None:
     prices = dataset("sp500_closing_prices")["CLOSING_PRICES"]
     returns = np.diff(np.log(prices) if scale else prices)[-100:]
     # Heavy tails of the prior: a run of it lies where a warm-up finds only tiny steps.

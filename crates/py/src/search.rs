@@ -506,6 +506,7 @@ impl PyTask {
                 dict.set_item("kinds", PyTuple::new(py, result.kinds)?)?;
                 dict.set_item("niches", result.niches)?;
                 dict.set_item("other_work", result.other_work)?;
+                dict.set_item("generations", result.generations)?;
                 dict.set_item("price", result.price)?;
                 dict.set_item("losses", faults::losses(py, &result.lost, &self.task.program)?)?;
             }

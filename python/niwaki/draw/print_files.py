@@ -11,6 +11,7 @@ import zipfile
 from html import escape
 
 import numpy as np
+from numpy.typing import NDArray
 
 from niwaki.draw.solid import Solid
 
@@ -51,16 +52,21 @@ MODEL = """<?xml version="1.0" encoding="UTF-8"?>
 
 def stl(solid: Solid) -> bytes:
     """Write a binary STL file; equal solids give equal bytes."""
-    corners = solid.vertices[solid.faces]
+    return triangles_stl(solid.vertices[solid.faces], "binary STL by niwaki, millimetres, z up")
+
+
+def triangles_stl(corners: NDArray[np.floating], header: str) -> bytes:
+    """Write triangles (n, 3, 3) as binary STL.
+
+    The header must not begin with "solid", the first word of the text form.
+    """
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]).astype(np.float64)
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     record = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
     rows = np.zeros(len(corners), record)
     rows["normal"] = normals / np.where(lengths > 0.0, lengths, 1.0)
     rows["corners"] = corners
-    # The header must not begin with "solid", the first word of the text form.
-    header = b"binary STL by niwaki, millimetres, z up".ljust(80)
-    return header + np.uint32(len(rows)).tobytes() + rows.tobytes()
+    return header.encode("ascii").ljust(80) + np.uint32(len(rows)).tobytes() + rows.tobytes()
 
 
 def threemf(solid: Solid, name: str) -> bytes:

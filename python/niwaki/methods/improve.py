@@ -50,15 +50,17 @@ class Improve(Method):
     rounds
         The number of rounds, in place of a floor of work. Equal seeds and numbers of rounds give equal bits.
     seconds
-        The time of the search, in place of a floor of work; no round begins that would end later. The number of rounds
-        in `Result.info` repeats the search. None for no limit.
+        The time of the search, in place of a floor of work; no round begins that would end later. The numbers of rounds
+        and of generations in `Result.info` repeat the search. None for no limit.
     effort
         The factor of the floor of work, by default 1: about a second of a processor. Below 1 the search ends sooner
         when no round gains, too. It has no effect with `rounds` or `seconds`.
     diverse
         The number of results that differ, best score first. The search for the best is made as it is alone; three times
-        its work goes to an archive of the best runs of other kinds. Fewer results are possible, with a warning. Not
-        with `seconds`.
+        its work goes to an archive of the best runs of other kinds, or three quarters of `seconds`. Fewer results are
+        possible, with a warning.
+    generations
+        The number of generations of eight short searches for other kinds, in place of three times the work.
     by
         What tells results apart. "kind": finite choices and numbers of calls that carry at least a tenth of the scene's
         cells. "look": the share of filled cells in common. A list of choices, by address or label: a result for each
@@ -83,6 +85,7 @@ class Improve(Method):
     seconds: float | None = None
     effort: float | None = None
     diverse: int | None = None
+    generations: int | None = None
     by: str | tuple[str, ...] = "kind"
     margin: float | None = 3.0
     bins: int = 10

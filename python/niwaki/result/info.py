@@ -364,6 +364,8 @@ class ImproveInfo(Info):
         The number of kinds that the search for several results has met and keeps.
     other_work : int
         The work of its searches for other kinds, in the unit of the work of rounds.
+    generations : int
+        The number of generations of these searches.
     price : int
         The instructions of a processor for a unit of work, estimated from the best run of the first population.
     losses : Losses
@@ -378,6 +380,7 @@ class ImproveInfo(Info):
     kinds: tuple[dict[str, str], ...] = ()
     niches: int = 0
     other_work: int = 0
+    generations: int = 0
     price: int = 0
     losses: Losses = Losses()  # noqa: RUF009
     seconds: tuple[float, ...] = field(default=(), compare=False)

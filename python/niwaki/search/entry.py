@@ -29,7 +29,7 @@ from niwaki.targets.sketches import FREE, Score, no_self_intersection, volume_sc
 from niwaki.targets.target import Target
 
 #: The settings of `improve`, the default search of `grow`.
-OF_IMPROVE = ("rounds", "seconds", "effort", "diverse", "by", "margin", "bins", "guide")
+OF_IMPROVE = ("rounds", "seconds", "effort", "diverse", "generations", "by", "margin", "bins", "guide")
 #: The settings of `emulate`.
 OF_EMULATE = ("evaluations", "diverse")
 #: The engines of `grow`.
@@ -156,7 +156,7 @@ def grow(
     target
         The volume to fill: a `Target`, or a file. It may be left out if `score` has something to match.
     args, kwargs
-        The model's arguments. `rounds`, `seconds`, `effort`, `diverse`, `by`, `margin`, `bins` and `guide` are settings
+        The model's arguments. `rounds`, `seconds`, `effort`, `diverse`, `generations`, `by`, `margin`, `bins` and `guide` are settings
         of the default search. With any other setting of `smc` (particles, order, power, ...) the search is one
         population by these settings, with a default `power` of 16 for ratio weights (1 for drawings); with a `guide`
         its defaults are 50 particles and tempered resampling.

@@ -76,7 +76,11 @@ def written(result: Result, reference: ModelReference) -> dict[str, Any]:
         "hash": result.search.hash,
         "plan": list(getattr(result.info, "plan", ())),
         "rounds": max(len(getattr(result.info, "rounds", ())) - 1, 0),
-        **({"spent": result.info.spent} if isinstance(result.info, ImproveInfo) else {}),
+        **(
+            {"generations": result.info.generations, "spent": result.info.spent}
+            if isinstance(result.info, ImproveInfo)
+            else {}
+        ),
         "interrupted": result.interrupted,
         "best": result.samples.index(result.best),
         "shown": result.samples.index(result.best),

@@ -19,10 +19,10 @@ from niwaki.shell.references import find
 from PIL import Image
 
 MODEL = """
-import json, logging, platform, trimesh
+import json, logging, packaging, platform
 from niwaki import batches, box, emit, host, model, uniform
 
-assert json.loads("1") == 1 and logging.INFO == 20 and platform.system() and trimesh.Trimesh
+assert json.loads("1") == 1 and logging.INFO == 20 and platform.system() and packaging.__version__
 
 @host
 def doubled(x):
@@ -37,7 +37,7 @@ NAMES = [
     "json",
     "logging",
     "platform",
-    "trimesh",
+    "packaging",
     "niwaki",
     "numpy",
     "typing",
@@ -76,7 +76,7 @@ def test_a_file_replaces_no_module(folder: Path, name: str) -> None:
     assert again.best.log_score == result.best.log_score and again.best.choices == result.best.choices
 
 
-@pytest.mark.parametrize("name", ["json", pytest.param("trimesh", marks=pytest.mark.soak)])
+@pytest.mark.parametrize("name", ["json", pytest.param("packaging", marks=pytest.mark.soak)])
 def test_every_command_runs_such_a_file(folder: Path, name: str) -> None:
     place, out = folder / f"{name}.py", folder / "out"
     # TIFF files are read in a separate process, here while the model file runs.
@@ -114,6 +114,14 @@ def test_every_command_runs_such_a_file(folder: Path, name: str) -> None:
         assert done.returncode == 0, (words, done.stderr)
     assert (folder / "again" / "best.glb").read_bytes() == (out / "best.glb").read_bytes()
     assert name in json.dumps(json.loads((out / "run.json").read_text())["search"])
+
+
+def test_a_library_is_imported_and_not_the_file_of_its_name(folder: Path) -> None:
+    # Nothing else imports this library, so that the file does so first.
+    place = folder / "packaging.py"
+    place.write_text(MODEL)
+    done = shell(["check", place], folder)
+    assert done.returncode == 0, done.stderr
 
 
 def shell(words: Any, folder: Path, **environment: str) -> subprocess.CompletedProcess[str]:

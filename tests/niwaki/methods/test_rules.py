@@ -70,7 +70,7 @@ BROKEN: dict[str, list[tuple[str, Callable[[], Any]]]] = {
         ("populations", lambda: m.smc(9, populations=2, seconds=1)),
         ("particles", lambda: m.smc([9, 9], seconds=1)),
     ],
-    "seconds-diverse": [("seconds", lambda: m.improve(seconds=1, diverse=2))],
+    "generations-diverse": [("generations", lambda: m.improve(generations=4))],
     "sizes-alone": [("populations", lambda: m.smc([9, 9], populations=2))],
     "tempered-absolute": [("resampling", lambda: m.smc(9, resampling="tempered", **ABSOLUTE))],
     "warmup-steps": [("warmup", lambda: m.mh(100, warmup=100))],

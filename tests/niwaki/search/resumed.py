@@ -112,9 +112,9 @@ def several(**settings: Any) -> Any:
 def runs(**settings: Any) -> Any:
     """Several runs of a population, each polished."""
     method = nw.smc(40)
-    polish = nw.mh(4000, kernel=kernels.mixture(kernels.prior(), kernels.drift()))
+    polish = nw.mh(2000, kernel=kernels.mixture(kernels.prior(), kernels.drift()))
     return nw.grow(
-        gnarly_tree, bent_tube(), 0.2, voxel=0.5, method=method, polish=polish, runs=4, seed=5, **settings
+        gnarly_tree, bent_tube(), 0.2, voxel=0.5, method=method, polish=polish, runs=3, seed=5, **settings
     )
 
 
@@ -155,7 +155,7 @@ def bound(**settings: Any) -> Any:
         path,
         (-2, -1, 1, 2, -3, 3, 0, 1, -1),
         lambda side: nw.match_drawing(page(side), WINDOW),
-        training=Training.bound(steps=600, hidden=(8, 8)),
+        training=Training.bound(steps=300, hidden=(8, 8)),
         seed=4,
         **settings,
     )

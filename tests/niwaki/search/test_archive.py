@@ -118,6 +118,23 @@ def test_the_bits_do_not_depend_on_threads() -> None:
     assert seen[0].info == seen[1].info
 
 
+def test_a_timed_archive_is_repeated_by_its_counts() -> None:
+    timed = chairs(diverse=4, rounds=None, seconds=0.6)
+    rounds, generations = len(timed.info.rounds) - 1, timed.info.generations
+    again = chairs(diverse=4, rounds=max(rounds, 1), generations=max(generations, 1))
+    assert again.info.generations == max(generations, 1)
+    # A busy machine may leave no time for a round.
+    if rounds > 0 and generations > 0:
+        assert [sample.choices for sample in again] == [sample.choices for sample in timed]
+        assert again.info == timed.info
+
+
+def test_generations_are_counted() -> None:
+    short, longer = (chairs(diverse=4, rounds=2, generations=count) for count in (1, 3))
+    assert (short.info.generations, longer.info.generations) == (1, 3)
+    assert short.info.searches < longer.info.searches and short.info.rounds == longer.info.rounds
+
+
 def test_one_result_for_each_combination_of_choices() -> None:
     result = chairs(diverse=3, by=["legs/kind"])
     assert sorted(legs for legs, _ in pairs(result)) == sorted(LEGS)

@@ -211,6 +211,30 @@ def test_growing_a_part_again_changes_nothing_else() -> None:
         assert caught.value.code == code and "wings" in str(caught.value)
 
 
+@nw.model
+def row(level):
+    """Two boxes in a row."""
+    for k in range(2):
+        nw.emit(nw.box((3.0 * k, 3.0 * level, 0.0), (1.0, 1.0, nw.uniform(0.5, 1.0))))
+
+
+@nw.model
+def rows():
+    """Two rows, whose loop has the same variable: `k[1]` is the second row, and the end of each second box."""
+    for k in range(2):
+        row(k)
+
+
+def test_a_whole_address_names_one_part() -> None:
+    result = nw.run(rows, seed=1)
+    again = result.regrow("k[1]", particles=5, seed=2).best.choices
+    changed = {path for path, value in result.best.choices.items() if again[path] != value}
+    assert changed == {path for path in again if path.startswith("k[1]/")}
+    with pytest.raises(InputError) as caught:
+        result.regrow("**/k[1]", particles=5)
+    assert caught.value.code == "many-parts"
+
+
 def test_what_cannot_be_held_has_a_message() -> None:
     for hold, code in (
         ({"lenght": 1}, "no-address"),

@@ -142,7 +142,7 @@ def test_chains_that_move_at_a_fork_cannot_be_used_in_the_child(tmp_path: Path, 
 moving = threading.Event()
 result = nw.run(tower, nw.mh(100), seed=1, progress=lambda now: moving.set())
 moving.clear()
-other = threading.Thread(target=lambda: result.more(1_000_000))
+other = threading.Thread(target=lambda: result.more(200_000))
 other.start()
 moving.wait()
 def used():
@@ -170,7 +170,7 @@ def fork_once(now, seen=[]):
             signal.alarm(20)
         else:
             print(os.waitstatus_to_exitcode(os.waitpid(seen[0], 0)[1]))
-nw.run(tower, nw.mh(500_000), seed=1, progress=fork_once)
+nw.run(tower, nw.mh(150_000), seed=1, progress=fork_once)
 """
     assert ran(tmp_path, text, threads) == "70\n"
 

@@ -62,7 +62,7 @@ def broken_off(case: str, place: Path, times: int, seed: int) -> tuple[Any, int]
 
 @pytest.mark.parametrize("case", list(resumed.CASES))
 def test_what_goes_on_gives_the_same_bytes(case: str, tmp_path: Path) -> None:
-    result, ended = broken_off(case, tmp_path / "checkpoint", 5, 1)
+    result, ended = broken_off(case, tmp_path / "checkpoint", 3, 1)
     assert ended > 0
     assert resumed.digest(result) == alone(case)
 
@@ -91,7 +91,7 @@ def killed(case: str, place: Path, times: int, seed: int) -> tuple[str, int]:
 
 
 def test_a_killed_search_goes_on(tmp_path: Path) -> None:
-    output, kills = killed("improve", tmp_path / "checkpoint", 10, 2)
+    output, kills = killed("improve", tmp_path / "checkpoint", 4, 2)
     assert kills > 1
     assert output == alone("improve")
 

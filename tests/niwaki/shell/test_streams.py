@@ -59,7 +59,7 @@ COMMANDS = {
     "sample": "sample {}/garden.py:tower --steps 50 --quick",
     "color": "color bug -n 1 --side 64",
     "letters": "letters I --particles 4 --searches 1 --width 64 --format png,svg",
-    "guide train": "guide train vines --targets scribbles --searches 9 -o vines.guide",
+    "guide train": "guide train vines --targets scribbles --searches 2 --no-mirror -o vines.guide",
     "guide show": "guide show {}/../lightning.guide",
     "studio": "studio --no-browser --session session --port 1",
     "explain": "explain {}/garden.py:tower --choice *",

@@ -8,8 +8,11 @@ pytest.importorskip("starlette")
 
 import niwaki as nw
 import numpy as np
+import trimesh
 from niwaki import _engine, studio
 from niwaki.shell import run_files
+from niwaki.studio.worker.primitives import PRIMITIVES, primitive
+from trimesh.creation import box, cylinder, icosphere
 
 
 @pytest.fixture
@@ -103,3 +106,20 @@ def test_the_difference_has_a_byte_for_each_cell_and_the_sums_of_the_fit(served,
     # A part of the scene may lie outside the grid.
     assert fit.outside >= counts[3] / (counts[1] + counts[3]) - 1e-12
     assert connected.view["results"][0]["covered"] == fit.covered
+
+
+@pytest.mark.parametrize("name", PRIMITIVES)
+def test_primitives_are_those_of_trimesh(name):
+    ideal = {
+        "box": box((1.0, 1.0, 1.0)),
+        "ball": icosphere(3, 0.5),
+        "column": cylinder(0.5, 1.0, sections=48),
+    }[name]
+    if name == "column":
+        ideal.vertices = ideal.vertices[:, [0, 2, 1]] * (1.0, 1.0, -1.0)
+    target = primitive(name)
+    mesh = trimesh.Trimesh(target.vertices, target.faces)
+    assert mesh.is_volume and mesh.volume == pytest.approx(ideal.volume, rel=1e-12)
+    assert np.array_equal(mesh.bounds, ((-0.5, 0.0, -0.5), (0.5, 1.0, 0.5)))
+    corners = {tuple(corner) for corner in np.round(ideal.vertices + (0.0, 0.5, 0.0), 9).tolist()}
+    assert {tuple(corner) for corner in np.round(target.vertices, 9).tolist()} <= corners

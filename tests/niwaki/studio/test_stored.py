@@ -123,7 +123,7 @@ def ball(folder: Path) -> Path:
     """Store an uploaded mesh with its ghost."""
     mesh = trimesh.creation.icosphere(3, 1.0)
     place = folder / f"{'a' * 64}.stl"
-    place.write_bytes(thinning.stl(mesh))
+    place.write_bytes(thinning.stl(mesh.vertices, mesh.faces))
     Ghost.of(Target(mesh.vertices, mesh.faces)).save(place)
     return place
 
@@ -255,7 +255,8 @@ def test_what_was_sent_is_kept_whole_on_a_disk_that_fails(tmp_path, monkeypatch)
     monkeypatch.setattr(uploads, "GHOST_TRIANGLES", 100)
     lines: list[str] = []
     monkeypatch.setattr("builtins.print", lambda text, *_, **__: lines.append(text))
-    mesh = thinning.stl(trimesh.creation.icosphere(2, 1.0))
+    sphere = trimesh.creation.icosphere(2, 1.0)
+    mesh = thinning.stl(sphere.vertices, sphere.faces)
 
     def prepare(folder: Path) -> None:
         (folder / "sent.stl").write_bytes(mesh)

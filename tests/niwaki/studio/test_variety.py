@@ -7,7 +7,8 @@ from itertools import combinations
 import niwaki as nw
 import numpy as np
 import pytest
-from niwaki.studio.worker import variety
+from niwaki.errors import InputError
+from niwaki.studio.worker import jobs, variety
 
 
 @nw.model
@@ -35,6 +36,29 @@ def test_the_strongest_choice_takes_the_farthest_each_time_and_the_weakest_the_b
     for k in range(1, 4):
         rest = [j for j in range(9) if j not in selected[:k]]
         assert selected[k] == max(rest, key=lambda j: min(away[j, i] for i in selected[:k]))
+
+
+@nw.model
+def shifted():
+    """A place on a line."""
+    return nw.uniform(0.0, 1.0)
+
+
+@nw.model
+def hook():
+    """A box whose place is within a thousandth of a half, which is known after its call."""
+    place = shifted()
+    nw.condition(abs(place - 0.5) < 0.001)
+    nw.emit(nw.box((place, 0.0, 0.0), (1.0, 1.0, 1.0)))
+
+
+def test_a_part_that_fits_no_particle_moves_by_small_steps():
+    whole = nw.run(hook, choices={"shifted/uniform": 0.5}).best
+    with pytest.raises(InputError) as caught:
+        whole.regrow("shifted", jobs.REGROWTH_PARTICLES, seed=3)
+    assert caught.value.code == "everything-impossible"
+    form = jobs.form_of_part(whole, "shifted", 3)
+    assert 0.0 < abs(form.choices["shifted/uniform"] - 0.5) < 0.001
 
 
 def test_variants_come_in_the_order_of_their_distance():

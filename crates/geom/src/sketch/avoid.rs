@@ -15,7 +15,7 @@ use crate::bricks::Target;
 use crate::solids::primitive::Primitive;
 use crate::solids::shape::Shape;
 use crate::vector::Vec3;
-use crate::voxel::Voxels;
+use crate::voxel::{Grid, Voxels};
 use std::sync::Arc;
 
 /// The texts for forbidden scenes.
@@ -32,6 +32,10 @@ pub fn avoid(obstacle: Arc<Target>) -> Arc<dyn SketchSpec> {
 impl SketchSpec for Avoid {
     fn name(&self) -> &'static str {
         "avoid"
+    }
+
+    fn grid(&self) -> Option<&Grid> {
+        Some(self.obstacle.grid())
     }
 
     fn most(&self) -> f64 {

@@ -4,6 +4,7 @@ use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::plane::Page;
 use crate::solids::primitive::Primitive;
+use crate::voxel::Grid;
 use crate::window::{Place, WindowForm};
 use std::any::Any;
 use std::sync::Arc;
@@ -47,6 +48,10 @@ pub trait SketchSpec: Copied + Send + Sync {
     }
     /// The box around its target, world space; `None` without a target in the world.
     fn domain(&self) -> Option<Aabb> {
+        None
+    }
+    /// The grid of its target, whose cells a scene fills; `None` for a sketch without cells.
+    fn grid(&self) -> Option<&Grid> {
         None
     }
     /// The log score of a scene that fits in everything, nats: no scene has a higher one. Infinite where none is known.

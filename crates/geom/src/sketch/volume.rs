@@ -80,6 +80,10 @@ impl SketchSpec for VolumeMatch {
     fn domain(&self) -> Option<Aabb> {
         Some(*self.target.grid().domain())
     }
+
+    fn grid(&self) -> Option<&Grid> {
+        Some(self.target.grid())
+    }
 }
 
 /// The cells filled so far, and the box around everything.

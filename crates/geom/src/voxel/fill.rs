@@ -130,6 +130,9 @@ impl Region {
                 for step in 0..2 * columns {
                     let c = if step < columns { step } else { 2 * columns - 1 - step };
                     let i = row * columns + c;
+                    if reached[i] == self.free[i] {
+                        continue;
+                    }
                     let mut near = reached[i];
                     let mut take = |is_inside: bool, j: usize| near |= if is_inside { reached[j] } else { 0 };
                     take(y > 0, i.wrapping_sub(columns));

@@ -13,6 +13,10 @@ use crate::vector::{Vec3, vec3};
 
 /// Tolerance of the tests against the triangle's plane and edges, cells.
 pub const PLANE: f64 = 1e-5;
+/// The number of cells up to which all cells of a row are tested.
+const SHORT_ROW: i64 = 4;
+/// The component along x from which a direction bounds a row.
+const LEAST_SLOPE: f64 = 1e-6;
 
 /// A dense set of cells in a box, x in the bits of words. Unlike a grid, the box may start below zero.
 #[derive(Clone, Debug, PartialEq)]
@@ -166,7 +170,7 @@ pub(super) fn mark_among(mesh: &TriMesh, grid: &Grid, among: &Bits, marked: &mut
                         let across = (among.low[0] + column * 64 + i64::from(bit)) as f64;
                         let middle = vec3(across + 0.5, y as f64 + 0.5, z as f64 + 0.5);
                         let axes = axes.get_or_insert_with(|| separating_axes(&t));
-                        if axes.iter().all(|axis| axis.meets(middle)) {
+                        if axes.meet(middle) {
                             marked.words[at] |= 1 << bit;
                         }
                     }
@@ -192,11 +196,13 @@ fn visit(
     let end: [i64; 3] = std::array::from_fn(|a| bits.low[a] + bits.dims[a] as i64 - 1);
     let (t, first, last) = in_grid(corners, grid);
     let axes = separating_axes(&t);
+    let row = [first[0].max(bits.low[0]), last[0].min(end[0])];
     for z in first[2].max(bits.low[2])..=last[2].min(end[2]) {
         for y in first[1].max(bits.low[1])..=last[1].min(end[1]) {
-            for x in first[0].max(bits.low[0])..=last[0].min(end[0]) {
+            let [from, to] = axes.part_of_row(row, y as f64 + 0.5, z as f64 + 0.5);
+            for x in from..=to {
                 let middle = vec3(x as f64 + 0.5, y as f64 + 0.5, z as f64 + 0.5);
-                if axes.iter().all(|axis| axis.meets(middle)) {
+                if axes.meet(middle) {
                     f(bits, &t, [x, y, z]);
                 }
             }
@@ -266,10 +272,13 @@ fn winds(border: &[[Vec3; 2]], p: Vec3, axis: usize) -> bool {
 }
 
 /// A direction, with the triangle's extent along it, widened by a unit cube's half extent.
-pub(super) struct Axis {
+#[derive(Clone, Copy, Default)]
+struct Axis {
     direction: Vec3,
     low: f64,
     high: f64,
+    /// Cells along x for a step along the direction; zero where it hardly leads along x.
+    cells: f64,
 }
 
 impl Axis {
@@ -280,22 +289,55 @@ impl Axis {
     }
 }
 
+/// The directions along which a triangle and a cell may be apart.
+#[derive(Default)]
+struct Axes {
+    axes: [Axis; 10],
+    count: usize,
+}
+
+impl Axes {
+    /// True when no direction separates the triangle from the cell with this middle.
+    #[inline]
+    fn meet(&self, middle: Vec3) -> bool {
+        self.axes[..self.count].iter().all(|axis| axis.meets(middle))
+    }
+
+    /// The cells of a row along x that may meet the triangle: all that do, and at most two more where directions bound the row.
+    fn part_of_row(&self, [first, last]: [i64; 2], y: f64, z: f64) -> [i64; 2] {
+        if last - first < SHORT_ROW {
+            return [first, last];
+        }
+        let (mut low, mut high) = (first as f64, last as f64);
+        for axis in &self.axes[..self.count] {
+            if axis.cells != 0.0 {
+                let rest = axis.direction.y * y + axis.direction.z * z;
+                let [a, b] = [axis.low, axis.high].map(|end| (end - rest) * axis.cells - 0.5);
+                // Rounding moves a bound by less than a cell.
+                low = low.max(a.min(b) - 1.0);
+                high = high.min(a.max(b) + 1.0);
+            }
+        }
+        [low.ceil() as i64, high.floor() as i64]
+    }
+}
+
 /// The triangle's normal and the nine products of its edges with the cube's (the cube's own normals are the box
 /// of candidate cells). Directions that vanish separate nothing and are skipped.
-pub(super) fn separating_axes(t: &[Vec3; 3]) -> Vec<Axis> {
+fn separating_axes(t: &[Vec3; 3]) -> Axes {
     let edges = [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let products = edges.iter().flat_map(|e| Vec3::AXES.map(|a| a.cross(*e)));
-    std::iter::once(edges[0].cross(edges[1]))
-        .chain(products)
-        .filter_map(Vec3::unit)
-        .map(|direction| {
-            let along = t.map(|p| direction.dot(p));
-            let half = 0.5 * (direction.x.abs() + direction.y.abs() + direction.z.abs()) + PLANE;
-            let low = along[0].min(along[1]).min(along[2]) - half;
-            let high = along[0].max(along[1]).max(along[2]) + half;
-            Axis { direction, low, high }
-        })
-        .collect()
+    let mut all = Axes::default();
+    for direction in std::iter::once(edges[0].cross(edges[1])).chain(products).filter_map(Vec3::unit) {
+        let along = t.map(|p| direction.dot(p));
+        let half = 0.5 * (direction.x.abs() + direction.y.abs() + direction.z.abs()) + PLANE;
+        let low = along[0].min(along[1]).min(along[2]) - half;
+        let high = along[0].max(along[1]).max(along[2]) + half;
+        let cells = if direction.x.abs() > LEAST_SLOPE { 1.0 / direction.x } else { 0.0 };
+        all.axes[all.count] = Axis { direction, low, high, cells };
+        all.count += 1;
+    }
+    all
 }
 
 /// True when the triangle (grid coordinates) touches the closed cell.
@@ -304,5 +346,5 @@ pub fn touches(t: &[Vec3; 3], cell: [i64; 3]) -> bool {
     let high = t[0].max(t[1]).max(t[2]);
     let boxed = (0..3).all(|a| low[a] - TOUCH <= (cell[a] + 1) as f64 && high[a] + TOUCH >= cell[a] as f64);
     let middle = vec3(cell[0] as f64 + 0.5, cell[1] as f64 + 0.5, cell[2] as f64 + 0.5);
-    boxed && separating_axes(t).iter().all(|axis| axis.meets(middle))
+    boxed && separating_axes(t).meet(middle)
 }

@@ -103,6 +103,8 @@ struct Stored<R> {
     niches: Vec<StoredNiche<R>>,
     tried: BTreeMap<String, u32>,
     searches: u64,
+    #[serde(default)]
+    generations: u64,
     work: u64,
     time: Duration,
     invalid: Counts,
@@ -143,10 +145,11 @@ struct Archive<'a> {
     /// The number of searches that were made for a new niche, by its text.
     tried: BTreeMap<String, u32>,
     searches: u64,
+    generations: u64,
     work: u64,
 }
 
-/// Several results that differ, best first; a search for the best as it is alone comes first.
+/// Several results that differ, best first; a search for the best as it is alone comes first. Of a time it has its share of the work.
 ///
 /// # Errors
 /// A fault of the program, a name that the model does not have, or first populations that all died.
@@ -158,7 +161,8 @@ pub(super) fn search(
     outputs: Outputs<'_>,
     watch: &mut Watch<'_>,
 ) -> Result<(Vec<Run>, Improved), Failure> {
-    let single = Improve { diverse: None, keeps_all: true, ..improve.clone() };
+    let seconds = improve.seconds.map(|seconds| seconds / TIMES as f64);
+    let single = Improve { diverse: None, keeps_all: true, seconds, ..improve.clone() };
     let (mut best, mut info) = single.single(task, seed, 0, outputs, &mut |progress| watch(progress))?;
     let population = info.rounds.first().map_or(1, |round| round.work).max(1);
     let slice = (population / PER_POPULATION).max(1);
@@ -177,12 +181,27 @@ pub(super) fn search(
     let stored: Option<Stored<Run>> =
         outputs.checkpoint.map_or(Ok(None), |checkpoint| checkpoint.left(PART))?;
     let before = stored.as_ref().map_or(Duration::ZERO, |stored| stored.time);
+    let of_best = info.rounds.last().map_or(Duration::ZERO, |round| round.time);
+    let time = improve.time();
     let mut archive = match stored {
         Some(stored) => Archive::restored(&single, uncounted, seed, count, stored)?,
         None => Archive::begin(&single, uncounted, seed, count, best, watch, &mut info.interrupted)?,
     };
     let spread = spreads(uncounted, seed)?;
-    while archive.work < (TIMES - 1) * first && !info.interrupted {
+    // A generation is given the time of the last.
+    let mut last = Duration::ZERO;
+    while !info.interrupted {
+        let elapsed = of_best + before + began.elapsed();
+        let is_over = match (improve.generations, time) {
+            (None, None) => archive.work >= (TIMES - 1) * first,
+            (most, time) => {
+                most.is_some_and(|most| archive.generations >= most)
+                    || time.is_some_and(|time| elapsed + last >= time)
+            }
+        };
+        if is_over {
+            break;
+        }
         let store = || archive.stored(before + began.elapsed());
         outputs.checkpoint.inspect(|checkpoint| checkpoint.at_border(PART, store));
         let jobs = archive.plan()?;
@@ -195,6 +214,8 @@ pub(super) fn search(
         for (job, result) in jobs.into_iter().zip(results) {
             archive.take(job, result)?;
         }
+        archive.generations += u64::from(!is_stopped);
+        last = (of_best + before + began.elapsed()).saturating_sub(elapsed);
         outputs.shown.inspect(|shown| archive.show(shown));
     }
     if let Some(checkpoint) = outputs.checkpoint.filter(|_| !info.interrupted) {
@@ -202,7 +223,8 @@ pub(super) fn search(
     }
     task.invalid.add(uncounted.invalid.counts());
     info.searches = 1 + archive.searches as usize;
-    (info.niches, info.other_work) = (archive.niches.len(), archive.work);
+    (info.niches, info.other_work, info.generations) =
+        (archive.niches.len(), archive.work, archive.generations);
     let (runs, kinds): (Vec<Run>, Vec<Kind>) = archive.chosen().into_iter().unzip();
     info.kinds = kinds;
     Ok((runs, info))
@@ -279,6 +301,7 @@ impl<'a> Archive<'a> {
             niches: BTreeMap::new(),
             tried: BTreeMap::new(),
             searches: 0,
+            generations: 0,
             work,
         };
         for (run, trace) in runs.into_iter().zip(&traces) {
@@ -303,6 +326,7 @@ impl<'a> Archive<'a> {
             niches: niches.collect(),
             tried: self.tried.clone(),
             searches: self.searches,
+            generations: self.generations,
             work: self.work,
             time,
             invalid: self.task.invalid.counts(),
@@ -338,6 +362,7 @@ impl<'a> Archive<'a> {
             niches: BTreeMap::new(),
             tried: stored.tried,
             searches: stored.searches,
+            generations: stored.generations,
             work: stored.work,
         };
         for (entries, searches, idle) in stored.niches {

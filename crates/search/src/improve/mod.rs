@@ -71,6 +71,9 @@ pub struct Improve {
     effort: f64,
     /// The number of different results.
     diverse: Option<usize>,
+    /// The number of generations of short searches for other kinds.
+    #[serde(default)]
+    generations: Option<u64>,
     /// The rule by which they differ.
     #[serde(default)]
     by: By,
@@ -114,6 +117,8 @@ pub struct Improved {
     pub niches: usize,
     /// The work of the searches for other kinds.
     pub other_work: u64,
+    /// The number of generations of these searches.
+    pub generations: u64,
     /// The price of a unit of work, in instructions of a processor.
     pub price: u64,
     /// Whether the search was stopped.
@@ -132,13 +137,15 @@ impl Improve {
         ("seconds", Range::Optional(&POSITIVE)),
         ("effort", FROM_ZERO),
         ("diverse", Range::Optional(&COUNT)),
+        ("generations", Range::Optional(&COUNT)),
         ("margin", Range::Optional(&FROM_ZERO)),
         ("bins", COUNT),
     ];
 
     /// A setting and the rule that it breaks.
     pub(crate) fn broken_rule(&self) -> Option<(&'static str, &'static str)> {
-        (self.diverse.is_some() && self.seconds.is_some()).then_some(("seconds", "seconds-diverse"))
+        (self.generations.is_some() && self.diverse.is_none())
+            .then_some(("generations", "generations-diverse"))
     }
 
     /// Searches for the best run, or for several different runs, best first. If there is a `proposal`, populations and parts that are
@@ -165,6 +172,11 @@ impl Improve {
             }),
             Some(count) => archive::search(&improve, task, seed, count, outputs, watch),
         }
+    }
+
+    /// The time of the search.
+    fn time(&self) -> Option<Duration> {
+        self.seconds.map(|seconds| Duration::try_from_secs_f64(seconds).unwrap_or(Duration::ZERO))
     }
 
     /// The settings that arms use.
@@ -201,7 +213,7 @@ impl Improve {
         let stored: Option<Stored<Run>> =
             outputs.checkpoint.map_or(Ok(None), |checkpoint| checkpoint.left(part))?;
         let before = stored.as_ref().map_or(Duration::ZERO, |stored| stored.time);
-        let time = self.seconds.map(|seconds| Duration::try_from_secs_f64(seconds).unwrap_or(Duration::ZERO));
+        let time = self.time();
         let elapsed = || before + began.elapsed();
         let is_late = |next: Duration| time.is_some_and(|time| elapsed() + next >= time);
         let (mut course, mut info) = match stored {

@@ -1,13 +1,15 @@
 //! The price of work, in instructions of a processor: a count, so that it is the same on every machine.
 //!
 //! A unit of work is a particle step, a proposal or a moved shape. Its price depends on the model, so it is estimated from one run.
-//! The price has the model's instructions, the calls of functions of the host, and the corners of shapes, which decide how long
-//! sketches look at a shape. All are divided by the number of barriers of the run. The factors are rounded from counts of callgrind
+//! The price has the model's instructions, the calls of functions of the host, and the corners of shapes and the cells of those
+//! that are not convex, which decide how long sketches look at a shape. All are divided by the number of barriers of the run. The factors are rounded from counts of callgrind
 //! (`benches/counts.json`) and from the processor seconds of the problems of `benches/board.py`.
 
 use niwaki_chain::walk::state::State;
 use niwaki_chain::walk::streams::Streams;
+use niwaki_geom::Vec3;
 use niwaki_geom::solids::shape::Shape;
+use niwaki_geom::voxel::Grid;
 use niwaki_run::inside::Inside;
 use niwaki_run::replay::by_address;
 use niwaki_run::run::Run;
@@ -31,6 +33,10 @@ const INSTRUCTION: u64 = 5;
 const ALIGNED_CORNER: u64 = 500;
 /// A corner of any other shape.
 const CORNER: u64 = 3_000;
+/// A cell of the box of a shape that is not convex, which a fill looks at, and a cell of the box of one of its triangles, which is
+/// compared with the triangle.
+const CELL: u64 = 5;
+const TRIANGLE_CELL: u64 = 30;
 /// A call of a function of the host. Its work is unknown, so a thousand calls are as dear as the floor: a search whose host takes
 /// a third of a second ends after minutes.
 const HOST: u64 = FLOOR / 1_000;
@@ -47,7 +53,7 @@ pub(super) fn of(task: &Task, run: &Run) -> Result<u64, Failure> {
     let mut shapes = 0;
     state.trace.visit(&task.program, |_, item| {
         if let Item::Emit(primitive) = item {
-            shapes += primitive.shapes().iter().map(of_shape).sum::<u64>();
+            shapes += primitive.shapes().iter().map(|shape| of_shape(shape, &task)).sum::<u64>();
         }
     });
     let barriers = state.primitives as u64 + state.trace.totals().factors.unsigned_abs();
@@ -57,9 +63,28 @@ pub(super) fn of(task: &Task, run: &Run) -> Result<u64, Failure> {
 }
 
 /// The price of a shape in all sketches together.
-fn of_shape(shape: &Shape) -> u64 {
-    let corner = if shape.is_aligned_box() { ALIGNED_CORNER } else { CORNER };
-    corner * shape.world_mesh().vertices().len() as u64
+fn of_shape(shape: &Shape, task: &Task) -> u64 {
+    let mesh = shape.world_mesh();
+    let corners = mesh.vertices().len() as u64;
+    if shape.is_aligned_box() {
+        return ALIGNED_CORNER * corners;
+    }
+    if shape.convex().is_some() {
+        return CORNER * corners;
+    }
+    let grids = task.sketches.iter().filter_map(|sketch| sketch.grid());
+    let filled = grids.map(|grid| {
+        let of_triangle = |[a, b, c]: [Vec3; 3]| cells_of(a.max(b).max(c) - a.min(b).min(c), grid);
+        let of_triangles: u64 = mesh.corners().map(of_triangle).sum();
+        (CELL * cells_of(shape.aabb().extent(), grid)).saturating_add(TRIANGLE_CELL * of_triangles)
+    });
+    filled.fold(CORNER * corners, u64::saturating_add)
+}
+
+/// The number of cells of a box that begins within a cell; not more than a fill looks at.
+fn cells_of(extent: Vec3, grid: &Grid) -> u64 {
+    let cells: f64 = (0..3).map(|axis| extent[axis] / grid.cell()[axis] + 1.0).product();
+    cells.min(grid.len() as f64) as u64
 }
 
 /// The highest log score that a run can have, nats; infinite where it is not known.

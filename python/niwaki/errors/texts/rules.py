@@ -39,7 +39,7 @@ RULES: dict[str, tuple[str, str]] = {
         'None, or `weights` to "ratio"',
     ),
     "seconds-alone": ("no number of populations with `seconds`", "None"),
-    "seconds-diverse": ("None with `diverse`", "None, and give `rounds`"),
+    "generations-diverse": ("None without `diverse`", "None, or give `diverse`"),
     "sizes-alone": ("None with a list of sizes", "None"),
     "tempered-absolute": (
         "another resampling with absolute weights, which no copy can carry on",

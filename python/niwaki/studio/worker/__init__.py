@@ -10,6 +10,7 @@
 - `values`       searches of other programs by values, and repeated searches
 - `drag`         dragged parts
 - `reports`      reports on models: checked, run without a target, explained, fitted
+- `primitives`   primitive targets: a box, a ball, a column
 - `pictures`     small pictures for clients that show no meshes
 - `runs`         stored runs: replayed, described, shown, written
 - `differences`  differences between a result and its target

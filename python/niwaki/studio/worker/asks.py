@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-import trimesh
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
@@ -21,6 +20,7 @@ from niwaki.lang.compiled import arguments as positional
 from niwaki.shell.references import ModelReference
 from niwaki.studio.messages import Ask, Question, Sketch, Stroke, TargetAsk
 from niwaki.studio.worker.models import reference
+from niwaki.studio.worker.primitives import PRIMITIVES, primitive
 from niwaki.studio.worker.thinning import Ghost, stood
 
 Point = tuple[float, float, float]
@@ -29,13 +29,6 @@ Point = tuple[float, float, float]
 MASK_HEIGHT, DRAWING_SIDE = 96, 50
 #: The gap between the ends of a closed outline, as a share of its length; the grey of all that is outside outlines.
 GAP, OUTSIDE = 0.12, 100
-
-#: Primitive targets: unit size, on the ground.
-PRIMITIVES = {
-    "box": lambda: trimesh.creation.box((1.0, 1.0, 1.0)),
-    "ball": lambda: trimesh.creation.icosphere(3, 0.5),
-    "column": lambda: trimesh.creation.cylinder(0.5, 1.0, sections=48),
-}
 
 
 def search(question: Question) -> tuple[ModelReference, dict[str, Any]]:
@@ -190,12 +183,7 @@ def _load(source: str, up: Literal["y", "z"]) -> nw.Target:
 def _target(source: str) -> nw.Target:
     """Load the target of a source: a primitive, a target of the gallery, or an uploaded file."""
     if source in PRIMITIVES:
-        mesh = PRIMITIVES[source]()
-        if source == "column":
-            # Turn the axis from z to y.
-            mesh.apply_transform([[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
-        mesh.apply_translation((0.0, -mesh.bounds[0][1], 0.0))
-        return nw.Target(mesh.vertices, mesh.faces, source)
+        return primitive(source)
     if source.startswith("gallery:"):
         return nw.Target.find(source)
     # The server has replaced `upload:HASH` by the path of the file.

@@ -13,7 +13,10 @@ from msgspec import structs
 from numpy.typing import NDArray
 
 import niwaki as nw
+from niwaki import kernels
+from niwaki.errors import NiwakiError
 from niwaki.lang.compiled import translated
+from niwaki.methods.chains import Mh
 from niwaki.methods.improve import usual_rounds
 from niwaki.result import Progress, Result, Sample
 from niwaki.result.progress import Watch
@@ -43,6 +46,8 @@ from niwaki.studio.worker.thinning import GHOST_TRIANGLES
 
 #: Particles for growing a part again.
 REGROWTH_PARTICLES = 100
+#: Proposals of a chain over the choices of a part, where particles find no possible form.
+REGROWTH_STEPS = 200
 #: The most primitives of a run of the model that is drawn with smooth normals.
 SMOOTH = 300
 
@@ -159,7 +164,7 @@ def regrow(job: Regrow, send: Any) -> Answer:
         whole = Sample.of_trace(search.task.replay(choices, None), search, job.seed)
     forms: list[Sample] = []
     for number in range(job.count if job.strength is None else 2 * job.count):
-        form = whole.regrow(job.part, REGROWTH_PARTICLES, seed=(job.seed + number) % 2**53).best
+        form = form_of_part(whole, job.part, (job.seed + number) % 2**53)
         if form.choices not in [choices, *(other.choices for other in forms)]:
             forms.append(form)
     if not forms:
@@ -168,6 +173,19 @@ def regrow(job: Regrow, send: Any) -> Answer:
         forms = variety.ordered(whole, forms, job.count, job.strength)
     result = Result(search, forms, job.seed)
     return _answer(result, models.reference(job.question.model), job.run, job.file, "regrow", send, job.id)
+
+
+def form_of_part(whole: Sample, part: str, seed: int) -> Sample:
+    """Grow a part again by particles; by small steps from its form where what follows the part fits no particle."""
+    try:
+        return whole.regrow(part, REGROWTH_PARTICLES, seed=seed).best
+    except NiwakiError as error:
+        if error.code != "everything-impossible":
+            raise
+    steps = kernels.mixture(kernels.prior(), kernels.drift(0.3), kernels.drift(0.03))
+    moves = kernels.on(f"{part}/**", steps)
+    chain = Result(whole.search, [whole], seed).polish(Mh(REGROWTH_STEPS, kernel=moves, keep=1))
+    return chain.samples[-1]
 
 
 def change(job: Change, send: Any) -> Answer:

@@ -9,14 +9,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import msgspec
 import numpy as np
-import trimesh
 from msgspec import Meta, Struct
 from numpy.typing import NDArray
 
+from niwaki.draw.print_files import triangles_stl
 from niwaki.errors import NiwakiError
 from niwaki.errors.files import is_file, write_whole
 from niwaki.errors.schema import Unfit, decoded, fitted
@@ -68,8 +68,7 @@ class Ghost:
 
     def save(self, mesh: Path) -> None:
         """Write the ghost beside its mesh."""
-        light = trimesh.Trimesh(self.vertices, self.faces, process=False)
-        write_whole(mesh.with_suffix(".light.stl"), stl(light))
+        write_whole(mesh.with_suffix(".light.stl"), stl(self.vertices, self.faces))
         low, high = self.bounds.tolist()
         about = About((tuple(low), tuple(high)), self.triangles)
         write_whole(mesh.with_suffix(".json"), msgspec.json.encode(about))
@@ -96,10 +95,9 @@ def stood(points: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.stack([x, z, -y], axis=1)
 
 
-def stl(mesh: trimesh.Trimesh) -> bytes:
-    """Write a mesh as binary STL."""
-    data: Any = mesh.export(file_type="stl")
-    return bytes(data)
+def stl(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> bytes:
+    """Write a mesh as binary STL, in scene units."""
+    return triangles_stl(vertices[faces], "binary STL by niwaki, scene units, y up")
 
 
 def thinned(

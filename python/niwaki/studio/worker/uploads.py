@@ -14,8 +14,6 @@ import warnings
 from pathlib import Path
 from typing import Any
 
-import trimesh
-
 import niwaki as nw
 from niwaki.color import Drawing
 from niwaki.errors import NiwakiError
@@ -50,8 +48,7 @@ def main(source: str, sink: str) -> None:
                 )
             )
             return
-        mesh = trimesh.Trimesh(target.vertices, target.faces, process=False)
-        write_whole(Path(sink), stl(mesh))
+        write_whole(Path(sink), stl(target.vertices, target.faces))
         if len(target.faces) > GHOST_TRIANGLES:
             Ghost.of(target).save(Path(sink))
         report = {

@@ -185,7 +185,7 @@ fn named(parts: &[Sized], trace: &Trace, program: &Program, patterns: &[String])
     matching
 }
 
-/// The only part whose name matches a pattern.
+/// The only part whose name matches a pattern. A whole name is no pattern: other parts may end like it.
 ///
 /// # Errors
 /// No part, with the nearest names; or several parts, with their names.
@@ -193,7 +193,11 @@ pub(super) fn only(pattern: &str, trace: &Trace, program: &Program) -> Result<Pi
     let parts = sizes(trace, program, &|_| true);
     let name = |at: usize| trace.part_name(program, parts[at].part);
     let quoted = |names: &[String]| names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ");
-    match named(&parts, trace, program, &[pattern.into()])[..] {
+    let mut matching = named(&parts, trace, program, &[pattern.into()]);
+    if let Some(whole) = matching.iter().copied().find(|at| name(*at) == pattern) {
+        matching = vec![whole];
+    }
+    match matching[..] {
         [at] => Ok(Picked { part: parts[at].part, size: parts[at].size, how: How::Even }),
         [] => {
             let with_choices = |at: &usize| parts[*at].size > 0 && !parts[*at].part.is_onward();
