@@ -6,8 +6,8 @@ use arbitrary::Unstructured;
 use niwaki_geom::view::{Camera, Lens};
 use niwaki_geom::{
     Aabb, CellWeight, Drawing, Look, Page, Picture, Place, Primitive, Rule, Shape, Sketch, SketchSpec,
-    Sketches, Target, TargetPicture, Texture, Vec3, avoid, fill_drawing, floor, match_drawing, match_image,
-    match_shadow, match_volume, match_volume_by, no_overshoot, no_self_intersection, vec3,
+    Sketches, Target, TargetPicture, Texture, Vec3, avoid, fill_drawing, floor, limits, match_drawing,
+    match_image, match_shadow, match_volume, match_volume_by, no_overshoot, no_self_intersection, vec3,
 };
 use std::sync::{Arc, OnceLock};
 
@@ -67,6 +67,7 @@ fn specs() -> &'static [Arc<dyn SketchSpec>] {
             avoid(target.clone()),
             floor(-1.0).expect("a sketch"),
             no_overshoot(domain, 0.3).expect("a sketch"),
+            limits(Some([1.0, 2.0]), Some(domain), 0.3).expect("a sketch"),
             match_volume_by(target, 0.02, CellWeight::Balanced).expect("a sketch"),
         ]
     })

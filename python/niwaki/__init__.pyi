@@ -67,6 +67,7 @@ from .targets.sketches import Score as Score
 from .targets.sketches import avoid as avoid
 from .targets.sketches import fill_drawing as fill_drawing
 from .targets.sketches import floor as floor
+from .targets.sketches import limits as limits
 from .targets.sketches import match_drawing as match_drawing
 from .targets.sketches import match_image as match_image
 from .targets.sketches import match_shadow as match_shadow

@@ -5,7 +5,7 @@ mod scenes;
 
 use niwaki_geom::{
     Aabb, Avoid, Look, Primitive, Shape, Sketch, SketchSpec, Sketches, Target, TriMesh, Vec3, Voxels, avoid,
-    floor, no_overshoot, vec3,
+    floor, limits, no_overshoot, vec3,
 };
 use scenes::{Dice, any_shape, torus};
 use std::sync::Arc;
@@ -133,6 +133,29 @@ fn overshoot_sums_lengths_outside_over_six_sides() {
     assert!((sketch.measures()[0].1 - 0.05).abs() < 1e-12);
     assert!(no_overshoot(Aabb { low: Vec3::ZERO, high: vec3(1.0, 0.0, 1.0) }, 0.02).is_err());
     assert!(no_overshoot(domain, 0.0).is_err());
+}
+
+#[test]
+fn limits_cost_nothing_where_they_hold_and_a_step_with_a_square_beyond() {
+    let domain = Aabb { low: vec3(-1.0, 0.0, -1.0), high: vec3(1.0, 4.0, 1.0) };
+    let tall = limits(Some([1.0, 2.0]), None, 0.1).unwrap();
+    assert_eq!(score(&tall, &[cube(vec3(0.0, 7.0, 0.0), 1.5)]), 0.0);
+    assert_eq!(score(&tall, &[cube(vec3(0.0, 7.0, 0.0), 2.0 + 1e-12)]), 0.0);
+    // A fifth above the largest height, a fifth below the least, and nothing at all.
+    for (side, excess) in [(2.4, 0.2), (0.8, 0.2)] {
+        let cost = 12.0 + 0.5 * (excess / 0.1f64).powi(2);
+        assert!((score(&tall, &[cube(vec3(0.0, 7.0, 0.0), side)]) + cost).abs() < 1e-9);
+    }
+    assert!((score(&tall, &[]) + 62.0).abs() < 1e-9);
+    let inside = limits(None, Some(domain), 0.1).unwrap();
+    assert_eq!(score(&inside, &[]), 0.0);
+    assert_eq!(score(&inside, &[cube(vec3(0.0, 2.0, 0.0), 1.0)]), 0.0);
+    assert!((score(&inside, &[cube(vec3(0.6, 2.0, 0.0), 1.0)]) + 12.125).abs() < 1e-9);
+    for height in [[2.0, 1.0], [-1.0, 1.0], [0.0, f64::INFINITY], [f64::NAN, 1.0]] {
+        assert!(limits(Some(height), None, 0.1).is_err());
+    }
+    assert!(limits(None, Some(Aabb { low: Vec3::ZERO, high: vec3(1.0, 0.0, 1.0) }), 0.1).is_err());
+    assert!(limits(None, None, 0.0).is_err());
 }
 
 #[test]

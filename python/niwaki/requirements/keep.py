@@ -15,8 +15,11 @@ Lengths are in units of the scene. Results of searches and the parts of scripts 
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Callable, Collection, Iterable, Iterator
+from dataclasses import replace
 from difflib import get_close_matches
+from math import inf
 from os import PathLike
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple
@@ -34,6 +37,7 @@ from niwaki.requirements.measures import Corner, Measured
 from niwaki.requirements.rows import RequirementRow, Violation
 from niwaki.result import Sample
 from niwaki.shares import percent
+from niwaki.targets.sketches import Score, limits
 
 Share = Annotated[float, Meta(ge=0.0, le=1.0)]
 Length = Annotated[float, Meta(ge=0.0)]
@@ -68,6 +72,9 @@ REQUIREMENTS = {
     "supported": Requirement(lambda _: "every part supported", measures.supported, "boxes"),
     "collisions": Requirement(lambda _: "no parts intersect", measures.collisions, "pairs"),
 }  # fmt: skip
+
+#: The standard deviation of limits in a score: a quarter of a target's, because requirements go before the target.
+STRICTNESS = 0.005
 
 #: Values with which a requirement asks for nothing.
 INERT = {"stands": False, "supported": False, "collisions": True}
@@ -166,6 +173,16 @@ class Keep(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
             needs_target = requirement.by == "target" and not has_target
             row.value = "needs a target" if needs_target else f"kept by {count} of {len(each)} runs"
         return rows
+
+    def aims(self, score: Score) -> Score:
+        """Return a score with a term for those requirements that a search can see in every scene: see `nw.limits`."""
+        goal = replace(score, asks=tuple(call for call in score.asks if call.function != "limits"))
+        height = None if self.height is None else (self.height[0], min(self.height[1], sys.float_info.max))
+        sides = () if self.within is None else tuple(zip(*self.within, strict=True))
+        # A box without depth, of a drawing, and one without an end are judged alone.
+        has_inside = all(-inf < low < high < inf for low, high in sides)
+        within = self.within if has_inside else None
+        return goal if height is None and within is None else goal * limits(height, within, STRICTNESS)
 
     def unmet(self, subject: Sample | Form) -> list[str]:
         """Return the requirements that a run, or other parts, do not keep, in words."""

@@ -109,6 +109,8 @@ def grow(
             )
         else:
             search = earlier.search_again(reference, search_flags, method_settings, arguments, hold or None)
+    if rules := requirements.beside(reference):
+        search = replace(search, score=rules.aims(search.score))
     is_free = earlier is None and not set(settings.typed(method_settings)) & {
         "particles",
         "rounds",

@@ -1,8 +1,8 @@
 """Requirements beside a model (`niwaki.requirements`): `requirements.toml`, which a person owns.
 
-A search asks for a target and forbids intersections as always (`niwaki.targets.asks`). Its results are held against the
-file, and those that do not keep all of it are left out. If no result keeps the file, further searches look for many
-different results, among which one may keep it.
+A search asks for a target and forbids intersections as always (`niwaki.targets.asks`), and its score has a term for the
+height and the room (`Keep.aims`). Its results are held against the file, and those that do not keep all of it are left
+out. If no result keeps the file, further searches look for many different results, among which one may keep it.
 """
 
 from __future__ import annotations

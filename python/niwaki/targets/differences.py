@@ -240,6 +240,20 @@ class BoxDifferences:
         return clipped
 
 
+class LimitDifferences:
+    """How far a scene is beyond its limits, in standard deviations."""
+
+    def __init__(self, call: SketchCall, _: View | None = None) -> None:
+        self.spec, self.sigma = call.spec, float(call.arguments["sigma"])
+
+    def __call__(self, shapes: Sequence[_engine.Shape], scene: Scene) -> NDArray[np.float64]:
+        """Return the difference."""
+        sketch = _engine.Sketch([self.spec])
+        for part in scene.parts:
+            sketch.add(list(part.shapes))
+        return np.array([min(sketch.measures()["excess"] / self.sigma, FARTHEST)])
+
+
 def _cuts(count: int, step: float) -> NDArray[np.int64]:
     starts = np.unique(np.round(np.arange(0, count, max(step, 1.0))).astype(np.int64))
     return starts[starts < count]
@@ -267,6 +281,7 @@ MAKERS: dict[str, Make] = {
     "avoid": ObstacleDifferences,
     "floor": FloorDifferences,
     "overshoot": BoxDifferences,
+    "limits": LimitDifferences,
 }
 
 #: Sketches with a view, in the order of the views of a score.

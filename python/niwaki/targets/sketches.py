@@ -440,27 +440,61 @@ def overshoot(
         Standard deviation of the lengths outside, summed over the six sides, as shares of the box.
     """
     real("sigma", sigma, 0)
-    corners = domain.bounds if isinstance(domain, Target) else domain
+    low, high = _box("domain", domain.bounds if isinstance(domain, Target) else domain)
+    arguments = {"domain": (low, high), "sigma": sigma}
+    return _score("overshoot", arguments, arguments)
+
+
+def limits(
+    height: tuple[float, float] | None = None,
+    within: tuple[Sequence[float], Sequence[float]] | None = None,
+    sigma: float = 0.02,
+) -> Score:
+    """Score a scene by whether it keeps limits: 0 where it does; at least 12 nats less where it does not.
+
+    Searches ask for it where a `requirements.toml` has these requirements.
+
+    Parameters
+    ----------
+    height
+        The least and the largest height of the scene, along y.
+    within
+        The low and the high corner of a box that all parts stay in.
+    sigma
+        Standard deviation of what is beyond the limits, as a share of them: smaller is stricter.
+    """
+    arguments: dict[str, Any] = {"sigma": real("sigma", sigma, 0)}
+    if height is not None:
+        low, high = (real("height", number, 0, ends="[)") for number in height)
+        if low > high:
+            raise bad("height", height, "the least height first", "(2.0, 3.0)")
+        arguments["height"] = (low, high)
+    if within is not None:
+        arguments["within"] = _box("within", within)
+    return _score("limits", arguments, arguments)
+
+
+def _box(name: str, corners: Any) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+    """Return the corners of a box that has an inside, else refuse them."""
     try:
-        low, high = (_direction("domain", corner, zero=True) for corner in corners)
+        low, high = (_direction(name, corner, zero=True) for corner in corners)
     except (TypeError, ValueError):
         raise InputError(
             "bad-setting",
-            name="domain",
-            found=repr(domain),
+            name=name,
+            found=repr(corners),
             expected="a target, or the low and the high corner of a box",
             suggestion="such a box, for instance ((-5, 0, -5), (5, 10, 5))",
         ) from None
     if not all(a < b for a, b in zip(low, high, strict=True)):
         raise InputError(
             "bad-setting",
-            name="domain",
+            name=name,
             found=f"{low} to {high}",
             expected="a low corner below the high one along x, y and z",
             suggestion="such a box, for instance ((-5, 0, -5), (5, 10, 5))",
         )
-    arguments = {"domain": (low, high), "sigma": sigma}
-    return _score("overshoot", arguments, arguments)
+    return low, high
 
 
 #: The functions that make sketches, by name, in the order of the engine's table. `niwaki.targets.asks` multiplies them

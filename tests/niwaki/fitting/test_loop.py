@@ -211,6 +211,7 @@ def test_goals_of_every_kind_have_differences():
         nw.match_drawing(image, ((-1, -1), (1, 2))),
         nw.match_image(image, camera),
         nw.match_shadow(image, (0, -1, 0), nw.targets.target.Receiver(block.vertices, block.faces)),
+        nw.limits((5.0, 6.0), ((-1, 0, -1), (1, 1, 1))),
         nw.fill_drawing(((-1, -1), (1, 2))),
     ]
     scene = Scene([("part", built(HIDDEN))])
@@ -218,7 +219,7 @@ def test_goals_of_every_kind_have_differences():
         outcome = Goal.of(score).measure(scene)
         assert len(outcome.features) and np.abs(outcome.features).max() > 0, score
         assert len(Goal.of(score).measure(Scene([])).features) == len(outcome.features)
-    assert [Goal.of(score).without for score in scores] == [()] * 7 + [("fill_drawing",)]
+    assert [Goal.of(score).without for score in scores] == [()] * 8 + [("fill_drawing",)]
     product = Goal.of(scores[0] * scores[2]) * number("height", 2.0, 0.1)
     assert len(product.measure(scene).features) == sum(product.sizes) + 1
     assert Goal.of(nw.no_self_intersection()).without == ("no_self_intersection",)

@@ -265,12 +265,15 @@ parts = {"foot": box((0, 0.25, 0), (0.5, 0.5, 0.5)), "arm": box((reach, 0.7, 0),
 def test_a_part_that_is_too_thin_gets_its_thickness_once_that_is_freed(room: Path) -> None:
     room.write_text(TABLE)
     keep = nw.Keep(thinnest=0.03)
-    stays = nw.repair(room, keep, workers=0)
+    stays = nw.repair(room, keep, workers=0, evaluations=10)
     # The legs are two solids of one part, each as thick as it is required.
     assert [row.key for row in stays.before] == [("thinnest", ("top",))]
     assert "sizes stay as they are unless they are freed: thickness" in stays.conflicts[0].reason
-    patch = nw.repair(room, keep, workers=0, free=["thickness"]).best
+    trials: list[Any] = []
+    patch = nw.repair(room, keep, workers=0, free=["thickness"], progress=trials.append).best
     assert patch is not None and [edit.after for edit in patch.edits] == ["0.03"]
+    # The first plan is right: the thickness of a part that is stretched is predicted.
+    assert trials[0].values == trials[-1].values and not trials[0].failed
 
 
 def test_what_falls_over_is_moved_above_its_feet(room: Path) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import niwaki as nw
 import numpy as np
 import pytest
 from niwaki import InputError, _engine, box, cylinder, emit, model, rotation, run
@@ -173,11 +174,29 @@ def test_a_search_keeps_the_requirements_or_says_which_it_does_not(place: Path):
     assert code == 1 and row["unmet"][0].startswith("height 5 to 6: height ")
 
 
+def test_a_search_looks_for_a_height_that_few_runs_have_and_no_target_has(place: Path):
+    (place / "requirements.toml").write_text("height = [1.1, 1.2]\nwithin = [[-1, 0, -1], [1, 2, 1]]\n")
+    command = "grow tower.py --target target.obj --seed 3 --rounds 2 --json".split()
+    answer = CliRunner().invoke(app, command, catch_exceptions=False)
+    assert answer.exit_code == 0 and "another search" not in answer.stderr
+
+
+def test_a_score_has_the_limits_that_a_search_can_see_and_no_former_ones():
+    first = Keep(height=(1.0, 2.0), stands=True).aims(nw.floor(0.0))
+    assert [call.function for call in first.asks] == ["floor", "limits"]
+    # Without an end or without an inside, limits are judged alone.
+    second = Keep(height=(1.0, np.inf), within=((-1, 0, 0), (1, 2, 0))).aims(first)
+    assert [call.function for call in second.asks] == ["floor", "limits"]
+    assert second.asks[1].arguments["height"][0] == 1.0 and "within" not in second.asks[1].arguments
+    for keep in (Keep(within=((-np.inf, 0, 0), (1, 2, 1))), Keep(stands=True)):
+        assert [call.function for call in keep.aims(second).asks] == ["floor"]
+
+
 def test_a_target_that_contradicts_a_requirement_is_named_and_so_are_two_requirements(place: Path):
-    (place / "requirements.toml").write_text("height = [1.0, 2.0]\n")
+    (place / "requirements.toml").write_text("height = [5.0, 6.0]\n")
     code, output = shell(*GROW, "--json")
     assert code == 1
-    assert json.loads(output)["conflicts"] == ["`height 1 to 2` stands against the target (height 3)"]
+    assert json.loads(output)["conflicts"] == ["`height 5 to 6` stands against the target (height 3)"]
     shorter = run(leaning, method=Forward(), seed=1, x=2.0)
     taller = run(crossing, method=Forward(), seed=1)
     rules = Keep(height=(1.5, 2.5), within=((-1.0, 0.0, -1.0), (1.5, 1.9, 1.5)))

@@ -139,6 +139,7 @@ def test_the_engine_names_a_sketch_as_the_function_that_makes_it() -> None:
         nw.match_image(ON, CAMERA),
         nw.match_shadow(ON, (0, -1, 0), nw.Receiver.floor()),
         nw.overshoot(cube()),
+        nw.limits((0.0, 1.0)),
         nw.match_volume(cube()),
     ]
     sketches = [sketch for score in scores for sketch in score.asks]

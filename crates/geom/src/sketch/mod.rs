@@ -10,6 +10,7 @@
 //! - [`intersection`]: parts must not run into each other
 //! - [`avoid()`], [`floor()`]: keep out of an obstacle, stay above a floor
 //! - [`overshoot`]: stay inside of a box
+//! - [`limits()`]: have a height, and stay inside of a box, as a person requires
 //! - [`bag`]: the primitives of a sketch
 //! - [`product`]: several sketches of one scene
 //!
@@ -22,6 +23,7 @@ pub mod drawing;
 pub mod floor;
 pub mod form;
 pub mod intersection;
+pub mod limits;
 pub mod outside;
 pub mod overshoot;
 pub mod picture;
@@ -35,6 +37,7 @@ pub use avoid::{Avoid, avoid};
 pub use drawing::{Drawing, DrawingMatch, match_drawing};
 pub use floor::{Floor, floor};
 pub use intersection::{NoSelfIntersection, no_self_intersection};
+pub use limits::{Limits, limits};
 pub use overshoot::{Overshoot, no_overshoot};
 pub use picture::{Picture, PictureMatch, TargetPicture, match_image, match_shadow};
 pub use product::Sketches;
@@ -97,6 +100,9 @@ sketches! {
     "overshoot" Overshoot { domain: [[f64; 3]; 2], sigma: f64 } |_| {
         let [low, high] = domain.map(Into::into);
         no_overshoot(Aabb { low, high }, sigma)
+    };
+    "limits" Limits { height: Option<[f64; 2]>, within: Option<[[f64; 3]; 2]>, sigma: f64 } |_| {
+        limits(height, within.map(|corners| { let [low, high] = corners.map(Into::into); Aabb { low, high } }), sigma)
     };
     "match_volume" MatchVolume { sigma: f64, weight: Option<CellWeight> } |inputs| {
         match_volume_by(inputs.target()?, sigma, weight.unwrap_or_default())

@@ -107,6 +107,10 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
     progress, hold = watching(job.id, job.run, send, check), runs.values(job.question.hold) or None
     count = variety.candidates(settings.count, settings.strength) if settings.count > 1 else 1
 
+    rules = requirements.beside(model)
+    if rules is not None:
+        goals["score"] = rules.aims(goals["score"])
+
     def attempt(seed: int, candidates: int) -> Result:
         return nw.grow(
             model.model,
@@ -119,7 +123,7 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
             progress=progress,
         )
 
-    result, conflicts = requirements.keeping(requirements.beside(model), attempt, job.seed, count)
+    result, conflicts = requirements.keeping(rules, attempt, job.seed, count)
     kinds = dict(zip(map(id, result.samples), named(result), strict=True))
     result.samples = variety.spread(ended(result), settings.count, settings.strength)
     answer = _answer(result, model, job.run, job.file, "run", send, job.id)
