@@ -16,7 +16,7 @@ use std::collections::{HashMap, HashSet};
 
 /// The probability that levels are added or removed at the end of a loop, and not at any place.
 const AT_END: f64 = 0.5;
-/// The probability that a new level has the values of the one beside it; of a recursion, also those of its other calls.
+/// The probability that a new level of a recursion also has the values of the other calls of the level beside it.
 const COPIED: f64 = 0.5;
 /// The probability that a whole number moves by one, and is not drawn from its prior.
 const BY_ONE: f64 = 0.75;
@@ -60,16 +60,34 @@ impl Tries {
     }
 }
 
+/// The values of iterations that a loop has more.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Fill {
+    /// They are drawn.
+    Drawn,
+    /// They are those of the iteration beside them.
+    Copied,
+    /// They share the reals of the iteration beside them with it: what it had they have together. Likewise an iteration that is removed
+    /// gives its reals to the one beside it. So what comes after stays where a model adds up its iterations.
+    Shared,
+}
+
+impl Fill {
+    fn draw(rng: &mut Stream) -> Fill {
+        [Fill::Drawn, Fill::Copied, Fill::Shared][below(rng, 3)]
+    }
+}
+
 /// An edit of a run.
 pub(super) struct Edit {
-    /// The values of the edited run, as far as they are known.
-    pub values: Values,
+    /// The values of the edited run, as far as they are known, in one or more ways, which differ in the shares of iterations.
+    pub ways: Vec<Values>,
     pub form: Form,
     /// The number of runs that were made to find the values.
     pub runs: u64,
 }
 
-/// Draws an edit of a run, of a form whose edits were kept. `None` if the run has nothing to edit.
+/// Draws an edit of a run, of a form whose edits were kept, in at most so many `ways`. `None` if the run has nothing to edit.
 ///
 /// # Errors
 /// A fault of the program that makes no run invalid.
@@ -77,6 +95,7 @@ pub(super) fn draw(
     task: &Task,
     state: &State,
     tries: &Tries,
+    ways: usize,
     rng: &mut Stream,
 ) -> Result<Option<Edit>, Failure> {
     let (trace, program) = (&state.trace, &*task.program);
@@ -103,7 +122,7 @@ pub(super) fn draw(
     }
     let shares: Vec<f64> = forms.iter().map(|form| tries.share(*form)).collect();
     let form = forms[index(&shares, rng.uniform())];
-    let edit = |values, runs| Ok(Some(Edit { values, form, runs }));
+    let edit = |values, runs| Ok(Some(Edit { ways: vec![values], form, runs }));
     let mut values: Values = state.choices(program).collect();
     match form {
         Form::Count | Form::Turn => {
@@ -124,21 +143,18 @@ pub(super) fn draw(
                     (now != levels.parts.len()).then_some((levels, now))
                 })
                 .collect();
-            if rng.uniform() >= AT_END {
-                let (u, copied) = (rng.uniform(), rng.uniform() < COPIED);
-                for (levels, now) in changed {
-                    let by = now as isize - levels.parts.len() as isize;
-                    shift(&mut values, task, trace, levels, u, by, copied);
-                }
+            if rng.uniform() < AT_END {
+                return edit(values, 1);
             }
-            edit(values, 1)
+            let by = |(levels, now): &(&Iterations, usize)| *now as isize - levels.parts.len() as isize;
+            let shifts: Vec<Shift> =
+                changed.iter().map(|pair| Shift { levels: pair.0, by: by(pair) }).collect();
+            Ok(Some(Edit { ways: shifted(&values, task, trace, &shifts, ways, rng), form, runs: 1 }))
         }
         Form::Shift => {
             let levels = shiftable[below(rng, shiftable.len())];
-            let by = if rng.uniform() < 0.5 { 1 } else { -1 };
-            let (u, copied) = (rng.uniform(), rng.uniform() < COPIED);
-            shift(&mut values, task, trace, levels, u, by, copied);
-            edit(values, 0)
+            let shift = Shift { levels, by: if rng.uniform() < 0.5 { 1 } else { -1 } };
+            Ok(Some(Edit { ways: shifted(&values, task, trace, &[shift], ways, rng), form, runs: 0 }))
         }
         Form::Level => {
             let pair = &recursions[below(rng, recursions.len())];
@@ -180,37 +196,95 @@ fn turn(values: &mut Values, address: u128, rng: &mut Stream) {
     };
 }
 
-/// Adds `by` iterations to a loop at the place `u`, a share of its length, and moves those after it; or removes as many. With
-/// `copied` a new one has the values of the one before it, or of the one after it at the begin; else they are drawn.
-fn shift(
-    values: &mut Values,
+/// Iterations that a loop has more, or less.
+struct Shift<'a> {
+    levels: &'a Iterations,
+    by: isize,
+}
+
+/// The values of a run whose loops have iterations more or less at one place: in several `ways` if new iterations share values.
+fn shifted(
+    values: &Values,
     task: &Task,
     trace: &Trace,
-    levels: &Iterations,
-    u: f64,
-    by: isize,
-    copied: bool,
-) {
-    let program = &*task.program;
-    let (count, size) = (levels.parts.len(), by.unsigned_abs());
-    let moved =
-        |from: usize, to: usize| trace.moved(program, levels.parts[from], levels.path_of(to), &Within::All);
-    let place = |places: usize| ((u * places as f64) as usize).min(places.saturating_sub(1));
-    let mut after = vec![];
-    let first = if by > 0 { place(count + 1) } else { place((count + 1).saturating_sub(size)) };
-    for number in first..count {
-        take(values, task, trace, &moved(number, number));
-        let to = number as isize + by;
-        if to >= first as isize {
-            after.push(moved(number, to as usize));
+    shifts: &[Shift<'_>],
+    ways: usize,
+    rng: &mut Stream,
+) -> Vec<Values> {
+    let (u, fill) = (rng.uniform(), Fill::draw(rng));
+    let has_shares = fill == Fill::Shared && shifts.iter().any(|shift| shift.by > 0);
+    (0..if has_shares { ways.max(1) } else { 1 })
+        .map(|_| {
+            let mut values = values.clone();
+            for shift in shifts {
+                let shares = shares(shift.by.max(0) as usize + 1, rng);
+                shift.apply(&mut values, task, trace, u, fill, &shares);
+            }
+            values
+        })
+        .collect()
+}
+
+/// Positive numbers that sum to 1, drawn evenly.
+fn shares(count: usize, rng: &mut Stream) -> Vec<f64> {
+    let mut ends: Vec<f64> = (1..count).map(|_| rng.uniform()).chain([1.0]).collect();
+    ends.sort_by(f64::total_cmp);
+    let begins = [0.0].into_iter().chain(ends.iter().copied());
+    ends.iter().zip(begins).map(|(end, begin)| end - begin).collect()
+}
+
+impl Shift<'_> {
+    /// Adds iterations to the loop at the place `u`, a share of its length, and moves those after it; or removes as many.
+    /// New ones have, or share, the values of the one before them, or of the one after them at the begin.
+    fn apply(&self, values: &mut Values, task: &Task, trace: &Trace, u: f64, fill: Fill, shares: &[f64]) {
+        let (levels, by, program) = (self.levels, self.by, &*task.program);
+        let (count, size) = (levels.parts.len(), by.unsigned_abs());
+        let moved = |from: usize, to: usize| {
+            trace.moved(program, levels.parts[from], levels.path_of(to), &Within::All)
+        };
+        let place = |places: usize| ((u * places as f64) as usize).min(places.saturating_sub(1));
+        let mut after = vec![];
+        let first = if by > 0 { place(count + 1) } else { place((count + 1).saturating_sub(size)) };
+        for number in first..count {
+            take(values, task, trace, &moved(number, number));
+            let to = number as isize + by;
+            if to >= first as isize {
+                after.push(moved(number, to as usize));
+            }
+        }
+        // The iteration before the place, or else the one after it.
+        let model = first.saturating_sub(1).min(count.saturating_sub(1));
+        if by > 0 && count > 0 && fill != Fill::Drawn {
+            (first..first + size).for_each(|number| after.push(moved(model, number)));
+        }
+        after.iter_mut().for_each(|moved| put(values, task, trace, moved));
+        if fill != Fill::Shared || count == 0 {
+            return;
+        }
+        let real = |n: usize| match trace.choice(program, n).0 {
+            Value::Real(x) => Some(*x),
+            _ => None,
+        };
+        if by > 0 {
+            // At the begin, the iteration beside the new ones has moved behind them.
+            let beside = if first == 0 { size } else { model };
+            for (number, share) in [beside].into_iter().chain(first..first + size).zip(shares) {
+                for (address, n) in moved(model, number).choices {
+                    real(n).map(|x| values.insert(address, Value::Real(share * x)));
+                }
+            }
+        } else {
+            let heir = if first > 0 { Some(model) } else { (first + size < count).then_some(0) };
+            for (heir, removed) in heir.into_iter().flat_map(|to| (first..first + size).map(move |n| (to, n)))
+            {
+                for (address, n) in moved(removed, heir).choices {
+                    if let (Some(x), Some(Value::Real(had))) = (real(n), values.get_mut(&address)) {
+                        *had += x;
+                    }
+                }
+            }
         }
     }
-    // The iteration before the place, or else the one after it.
-    let model = first.saturating_sub(1).min(count.saturating_sub(1));
-    if by > 0 && count > 0 && copied {
-        (first..first + size).for_each(|number| after.push(moved(model, number)));
-    }
-    after.iter_mut().for_each(|moved| put(values, task, trace, moved));
 }
 
 /// Removes the choices of a part that is at its place.
@@ -316,8 +390,9 @@ mod tests {
         for seed in 0..count {
             let (state, _) = State::start(&task, Streams::new(seed, 0), 1, None).expect("a run");
             let mut rng = Stream::new(seed, 1, 2, 3);
-            let edit = draw(&task, &state, &Tries::default(), &mut rng).expect("no fault").expect("an edit");
-            match State::start(&task, Streams::new(seed, 1), 1, Some(&edit.values)) {
+            let edit =
+                draw(&task, &state, &Tries::default(), 3, &mut rng).expect("no fault").expect("an edit");
+            match State::start(&task, Streams::new(seed, 1), 1, Some(&edit.ways[0])) {
                 Ok((after, _)) => all.push((lists(&state), lists(&after))),
                 Err(Failure::NoStart { .. }) => {}
                 Err(_) => panic!("a fault"),
