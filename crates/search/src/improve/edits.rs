@@ -80,7 +80,7 @@ impl Fill {
 
 /// An edit of a run.
 pub(super) struct Edit {
-    /// The values of the edited run, as far as they are known, in one or more ways, which differ in the shares of iterations.
+    /// The values of the edited run, as far as they are known, in one or more ways, which differ in the places of iterations.
     pub ways: Vec<Values>,
     pub form: Form,
     /// The number of runs that were made to find the values.
@@ -202,7 +202,7 @@ struct Shift<'a> {
     by: isize,
 }
 
-/// The values of a run whose loops have iterations more or less at one place: in several `ways` if new iterations share values.
+/// The values of a run whose loops have iterations more or less, in several `ways`: each at a place of its own, the same in all loops.
 fn shifted(
     values: &Values,
     task: &Task,
@@ -211,11 +211,10 @@ fn shifted(
     ways: usize,
     rng: &mut Stream,
 ) -> Vec<Values> {
-    let (u, fill) = (rng.uniform(), Fill::draw(rng));
-    let has_shares = fill == Fill::Shared && shifts.iter().any(|shift| shift.by > 0);
-    (0..if has_shares { ways.max(1) } else { 1 })
+    let fill = Fill::draw(rng);
+    (0..ways.max(1))
         .map(|_| {
-            let mut values = values.clone();
+            let (u, mut values) = (rng.uniform(), values.clone());
             for shift in shifts {
                 let shares = shares(shift.by.max(0) as usize + 1, rng);
                 shift.apply(&mut values, task, trace, u, fill, &shares);

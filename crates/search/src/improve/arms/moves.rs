@@ -14,6 +14,7 @@ pub(super) fn kernel(_: &Sizes) -> Result<Kernel, Fault> {
         (4.0, Kernel::PRIOR),
         (4.0, drift(0.3)?),
         (2.0, drift(0.05)?),
+        (4.0, Kernel::EXCHANGE),
         (1.0, leaf("regenerate", json!({"levels": 0}))?),
     ]))
 }
