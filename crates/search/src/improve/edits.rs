@@ -29,6 +29,8 @@ pub(super) type Values = HashMap<u128, Value>;
 pub(super) enum Form {
     /// A whole number is turned.
     Count,
+    /// A whole number is turned, and a real that belongs to no iteration of the loops that are longer or shorter now is drawn.
+    Stretch,
     /// A truth value is turned.
     Turn,
     /// The iterations of a loop move by one.
@@ -38,7 +40,7 @@ pub(super) enum Form {
 }
 
 impl Form {
-    const ALL: [Form; 4] = [Form::Count, Form::Turn, Form::Shift, Form::Level];
+    const ALL: [Form; 5] = [Form::Count, Form::Stretch, Form::Turn, Form::Shift, Form::Level];
 }
 
 /// How many edits of each form were made, and how many of these were kept.
@@ -111,7 +113,7 @@ pub(super) fn draw(
     let shiftable: Vec<&Iterations> = loops.iter().filter(has_choices).collect();
     let recursions = trace.recursions(program);
     let is_there = |form: &Form| match form {
-        Form::Count => !counts.is_empty(),
+        Form::Count | Form::Stretch => !counts.is_empty(),
         Form::Turn => !truths.is_empty(),
         Form::Shift => !shiftable.is_empty(),
         Form::Level => !recursions.is_empty(),
@@ -125,8 +127,8 @@ pub(super) fn draw(
     let edit = |values, runs| Ok(Some(Edit { ways: vec![values], form, runs }));
     let mut values: Values = state.choices(program).collect();
     match form {
-        Form::Count | Form::Turn => {
-            let discrete = if form == Form::Count { counts } else { truths };
+        Form::Count | Form::Stretch | Form::Turn => {
+            let discrete = if form == Form::Turn { truths } else { counts };
             let choice = discrete[below(rng, discrete.len())];
             let address = trace.address(program, choice);
             turn(&mut values, address, rng);
@@ -143,6 +145,13 @@ pub(super) fn draw(
                     (now != levels.parts.len()).then_some((levels, now))
                 })
                 .collect();
+            if form == Form::Stretch {
+                let outside = reals_outside(task, trace, changed.iter().map(|(levels, _)| *levels));
+                if !outside.is_empty() {
+                    values.remove(&outside[below(rng, outside.len())]);
+                }
+                return edit(values, 1);
+            }
             if rng.uniform() < AT_END {
                 return edit(values, 1);
             }
@@ -180,6 +189,22 @@ pub(super) fn draw(
             edit(values, 0)
         }
     }
+}
+
+/// The addresses of the real choices that are in no iteration of these loops.
+fn reals_outside<'a>(task: &Task, trace: &Trace, loops: impl Iterator<Item = &'a Iterations>) -> Vec<u128> {
+    let program = &*task.program;
+    let parts =
+        loops.flat_map(|levels| (0..).zip(&levels.parts).map(move |(number, part)| (levels, number, part)));
+    let inside: HashSet<usize> = parts
+        .flat_map(|(levels, number, part)| {
+            trace.moved(program, *part, levels.path_of(number), &Within::All).choices
+        })
+        .map(|(_, n)| n)
+        .collect();
+    let is_real = |n: &usize| matches!(trace.choice(program, *n).0, Value::Real(_));
+    let outside = trace.numbers().filter(|n| is_real(n) && !inside.contains(n));
+    outside.map(|n| trace.address(program, n)).collect()
 }
 
 /// Gives a discrete choice another value, or leaves it to the prior.
