@@ -14,8 +14,10 @@ use niwaki_vm::value::Value;
 use serde::{Deserialize, Serialize};
 use std::collections::{HashMap, HashSet};
 
-/// The probability that levels are added or removed at the end of a loop, and not at any place.
-const AT_END: f64 = 0.5;
+/// The probability that new iterations of a loop are drawn.
+const DRAWN: f64 = 0.4;
+/// The probability that iterations that are drawn are at the end of the loop, and not at any place.
+const AT_END: f64 = 0.6;
 /// The probability that a new level of a recursion also has the values of the other calls of the level beside it.
 const COPIED: f64 = 0.5;
 /// The probability that a whole number moves by one, and is not drawn from its prior.
@@ -72,12 +74,6 @@ enum Fill {
     /// They share the reals of the iteration beside them with it: what it had they have together. Likewise an iteration that is removed
     /// gives its reals to the one beside it. So what comes after stays where a model adds up its iterations.
     Shared,
-}
-
-impl Fill {
-    fn draw(rng: &mut Stream) -> Fill {
-        [Fill::Drawn, Fill::Copied, Fill::Shared][below(rng, 3)]
-    }
 }
 
 /// An edit of a run.
@@ -150,9 +146,6 @@ pub(super) fn draw(
                 if !outside.is_empty() {
                     values.remove(&outside[below(rng, outside.len())]);
                 }
-                return edit(values, 1);
-            }
-            if rng.uniform() < AT_END {
                 return edit(values, 1);
             }
             let by = |(levels, now): &(&Iterations, usize)| *now as isize - levels.parts.len() as isize;
@@ -236,10 +229,16 @@ fn shifted(
     ways: usize,
     rng: &mut Stream,
 ) -> Vec<Values> {
-    let fill = Fill::draw(rng);
+    let is_drawn = rng.uniform() < DRAWN;
     (0..ways.max(1))
         .map(|_| {
-            let (u, mut values) = (rng.uniform(), values.clone());
+            let (fill, u) = match rng.uniform() {
+                below if is_drawn && below < AT_END => (Fill::Drawn, 1.0),
+                _ if is_drawn => (Fill::Drawn, rng.uniform()),
+                below if below < 0.5 => (Fill::Copied, rng.uniform()),
+                _ => (Fill::Shared, rng.uniform()),
+            };
+            let mut values = values.clone();
             for shift in shifts {
                 let shares = shares(shift.by.max(0) as usize + 1, rng);
                 shift.apply(&mut values, task, trace, u, fill, &shares);
