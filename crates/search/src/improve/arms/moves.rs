@@ -1,4 +1,4 @@
-//! Moves of single choices, and calls drawn anew.
+//! Moves of single choices, exchanges between two choices of a site, and calls drawn anew.
 
 use super::{Arm, Form, Sizes, Step, leaf};
 use niwaki_chain::kernel::Kernel;
