@@ -12,7 +12,7 @@
 use crate::leaf::drift::normal;
 use crate::walk::proposal::FromPrior;
 use crate::walk::streams::below;
-use crate::walk::{ChainMove, Proposing};
+use crate::walk::{ChainMove, Proposing, Walk};
 use niwaki_math::Stream;
 use niwaki_run::Failure;
 use niwaki_run::fresh::Fresh;
@@ -62,7 +62,7 @@ impl ChainMove for Exchange {
             Ok(change) => change,
             Err(met) => chain.give_up(task, met)?,
         };
-        let selection = |chain: &crate::walk::Walk| {
+        let selection = |chain: &Walk| {
             let trace = &chain.state.trace;
             let is_same = trace.births(program).len() == 0 && trace.deaths().is_empty();
             if is_same { 0.0 } else { f64::NEG_INFINITY }
@@ -76,12 +76,13 @@ impl ChainMove for Exchange {
 /// Another choice at the site of a choice. `None` if there is none.
 fn partner(trace: &Trace, first: usize, rng: &mut Stream) -> Option<usize> {
     let (site, count) = (trace.site_of(first), trace.len());
-    let mut others = (1..count).map(|by| (first + by) % count).filter(|other| trace.site_of(*other) == site);
+    let mut partners =
+        (1..count).map(|by| (first + by) % count).filter(|other| trace.site_of(*other) == site);
     if rng.uniform() < NEXT {
-        return others.next();
+        return partners.next();
     }
-    let others: Vec<usize> = others.collect();
-    (!others.is_empty()).then(|| others[below(rng, others.len() as u64) as usize])
+    let partners: Vec<usize> = partners.collect();
+    (!partners.is_empty()).then(|| partners[below(rng, partners.len() as u64) as usize])
 }
 
 #[cfg(test)]
