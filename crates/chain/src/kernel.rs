@@ -35,6 +35,8 @@ pub enum Kernel {
 impl Kernel {
     /// Propose a value for a single choice from its prior.
     pub const PRIOR: Kernel = Kernel::Leaf(Proposer::Prior {});
+    /// Exchanges between two choices of a site.
+    pub const EXCHANGE: Kernel = Kernel::Leaf(Proposer::Exchange);
 
     /// Whether the kernel or a part of it satisfies a predicate.
     pub fn any(&self, is: &impl Fn(&Kernel) -> bool) -> bool {

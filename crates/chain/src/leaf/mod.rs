@@ -4,6 +4,7 @@
 pub mod block;
 mod by_family;
 pub mod drift;
+mod exchange;
 pub mod guided;
 pub mod neighbour;
 mod regenerate;
@@ -14,6 +15,7 @@ pub mod user;
 use crate::leaf::block::Block;
 use crate::leaf::by_family::ByFamily;
 use crate::leaf::drift::{Drift, Step};
+use crate::leaf::exchange::Exchange;
 use crate::leaf::guided::Guided;
 use crate::leaf::neighbour::Neighbour;
 use crate::leaf::regenerate::Regenerate;
@@ -53,6 +55,9 @@ pub enum Proposer {
     /// Like `Hmc`, until the trajectory turns back.
     #[serde(deserialize_with = "trajectory::nuts_step")]
     NutsStep(Box<Trajectory>),
+    /// Two real choices of a site, whose sum stays.
+    #[serde(skip)]
+    Exchange,
     /// A single choice, from a distribution that a model function computes from the value.
     #[serde(skip)]
     Proposal(Arc<User>),
@@ -91,6 +96,7 @@ impl Proposer {
             Proposer::Regenerate(regenerate) => target.kept(regenerate),
             Proposer::Regrow(regrow) => target.kept(&mut **regrow),
             Proposer::HmcStep(trajectory) | Proposer::NutsStep(trajectory) => target.kept(&mut **trajectory),
+            Proposer::Exchange => target.kept(&mut Exchange),
             Proposer::Proposal(proposal) => target.single(&mut UserMove(proposal)),
             Proposer::Guided(guided) => target.kept(&mut **guided),
         }

@@ -14,9 +14,11 @@ use niwaki_vm::value::Value;
 use serde::{Deserialize, Serialize};
 use std::collections::{HashMap, HashSet};
 
-/// The probability that levels are added or removed at the end of a loop, and not at any place.
-const AT_END: f64 = 0.5;
-/// The probability that a new level has the values of the one beside it; of a recursion, also those of its other calls.
+/// The probability that new iterations of a loop are drawn.
+const DRAWN: f64 = 0.4;
+/// The probability that iterations that are drawn are at the end of the loop, and not at any place.
+const AT_END: f64 = 0.6;
+/// The probability that a new level of a recursion also has the values of the other calls of the level beside it.
 const COPIED: f64 = 0.5;
 /// The probability that a whole number moves by one, and is not drawn from its prior.
 const BY_ONE: f64 = 0.75;
@@ -29,6 +31,8 @@ pub(super) type Values = HashMap<u128, Value>;
 pub(super) enum Form {
     /// A whole number is turned.
     Count,
+    /// A whole number is turned, and a real that belongs to no iteration of the loops that are longer or shorter now is drawn.
+    Stretch,
     /// A truth value is turned.
     Turn,
     /// The iterations of a loop move by one.
@@ -38,7 +42,7 @@ pub(super) enum Form {
 }
 
 impl Form {
-    const ALL: [Form; 4] = [Form::Count, Form::Turn, Form::Shift, Form::Level];
+    const ALL: [Form; 5] = [Form::Count, Form::Stretch, Form::Turn, Form::Shift, Form::Level];
 }
 
 /// How many edits of each form were made, and how many of these were kept.
@@ -60,16 +64,28 @@ impl Tries {
     }
 }
 
+/// The values of iterations that a loop has more.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Fill {
+    /// They are drawn.
+    Drawn,
+    /// They are those of the iteration beside them.
+    Copied,
+    /// They share the reals of the iteration beside them with it: what it had they have together. Likewise an iteration that is removed
+    /// gives its reals to the one beside it. So what comes after stays where a model adds up its iterations.
+    Shared,
+}
+
 /// An edit of a run.
 pub(super) struct Edit {
-    /// The values of the edited run, as far as they are known.
-    pub values: Values,
+    /// The values of the edited run, as far as they are known, in one or more ways, which differ in the places of iterations.
+    pub ways: Vec<Values>,
     pub form: Form,
     /// The number of runs that were made to find the values.
     pub runs: u64,
 }
 
-/// Draws an edit of a run, of a form whose edits were kept. `None` if the run has nothing to edit.
+/// Draws an edit of a run, of a form whose edits were kept, in at most so many `ways`. `None` if the run has nothing to edit.
 ///
 /// # Errors
 /// A fault of the program that makes no run invalid.
@@ -77,6 +93,7 @@ pub(super) fn draw(
     task: &Task,
     state: &State,
     tries: &Tries,
+    ways: usize,
     rng: &mut Stream,
 ) -> Result<Option<Edit>, Failure> {
     let (trace, program) = (&state.trace, &*task.program);
@@ -92,7 +109,7 @@ pub(super) fn draw(
     let shiftable: Vec<&Iterations> = loops.iter().filter(has_choices).collect();
     let recursions = trace.recursions(program);
     let is_there = |form: &Form| match form {
-        Form::Count => !counts.is_empty(),
+        Form::Count | Form::Stretch => !counts.is_empty(),
         Form::Turn => !truths.is_empty(),
         Form::Shift => !shiftable.is_empty(),
         Form::Level => !recursions.is_empty(),
@@ -103,11 +120,11 @@ pub(super) fn draw(
     }
     let shares: Vec<f64> = forms.iter().map(|form| tries.share(*form)).collect();
     let form = forms[index(&shares, rng.uniform())];
-    let edit = |values, runs| Ok(Some(Edit { values, form, runs }));
+    let edit = |values, runs| Ok(Some(Edit { ways: vec![values], form, runs }));
     let mut values: Values = state.choices(program).collect();
     match form {
-        Form::Count | Form::Turn => {
-            let discrete = if form == Form::Count { counts } else { truths };
+        Form::Count | Form::Stretch | Form::Turn => {
+            let discrete = if form == Form::Turn { truths } else { counts };
             let choice = discrete[below(rng, discrete.len())];
             let address = trace.address(program, choice);
             turn(&mut values, address, rng);
@@ -124,21 +141,22 @@ pub(super) fn draw(
                     (now != levels.parts.len()).then_some((levels, now))
                 })
                 .collect();
-            if rng.uniform() >= AT_END {
-                let (u, copied) = (rng.uniform(), rng.uniform() < COPIED);
-                for (levels, now) in changed {
-                    let by = now as isize - levels.parts.len() as isize;
-                    shift(&mut values, task, trace, levels, u, by, copied);
+            if form == Form::Stretch {
+                let outside = reals_outside(task, trace, changed.iter().map(|(levels, _)| *levels));
+                if !outside.is_empty() {
+                    values.remove(&outside[below(rng, outside.len())]);
                 }
+                return edit(values, 1);
             }
-            edit(values, 1)
+            let by = |(levels, now): &(&Iterations, usize)| *now as isize - levels.parts.len() as isize;
+            let shifts: Vec<Shift> =
+                changed.iter().map(|pair| Shift { levels: pair.0, by: by(pair) }).collect();
+            Ok(Some(Edit { ways: shifted(&values, task, trace, &shifts, ways, rng), form, runs: 1 }))
         }
         Form::Shift => {
             let levels = shiftable[below(rng, shiftable.len())];
-            let by = if rng.uniform() < 0.5 { 1 } else { -1 };
-            let (u, copied) = (rng.uniform(), rng.uniform() < COPIED);
-            shift(&mut values, task, trace, levels, u, by, copied);
-            edit(values, 0)
+            let shift = Shift { levels, by: if rng.uniform() < 0.5 { 1 } else { -1 } };
+            Ok(Some(Edit { ways: shifted(&values, task, trace, &[shift], ways, rng), form, runs: 0 }))
         }
         Form::Level => {
             let pair = &recursions[below(rng, recursions.len())];
@@ -166,6 +184,22 @@ pub(super) fn draw(
     }
 }
 
+/// The addresses of the real choices that are in no iteration of these loops.
+fn reals_outside<'a>(task: &Task, trace: &Trace, loops: impl Iterator<Item = &'a Iterations>) -> Vec<u128> {
+    let program = &*task.program;
+    let parts =
+        loops.flat_map(|levels| (0..).zip(&levels.parts).map(move |(number, part)| (levels, number, part)));
+    let inside: HashSet<usize> = parts
+        .flat_map(|(levels, number, part)| {
+            trace.moved(program, *part, levels.path_of(number), &Within::All).choices
+        })
+        .map(|(_, n)| n)
+        .collect();
+    let is_real = |n: &usize| matches!(trace.choice(program, *n).0, Value::Real(_));
+    let outside = trace.numbers().filter(|n| is_real(n) && !inside.contains(n));
+    outside.map(|n| trace.address(program, n)).collect()
+}
+
 /// Gives a discrete choice another value, or leaves it to the prior.
 fn turn(values: &mut Values, address: u128, rng: &mut Stream) {
     let by = if rng.uniform() < 0.5 { 1 } else { -1 };
@@ -180,37 +214,100 @@ fn turn(values: &mut Values, address: u128, rng: &mut Stream) {
     };
 }
 
-/// Adds `by` iterations to a loop at the place `u`, a share of its length, and moves those after it; or removes as many. With
-/// `copied` a new one has the values of the one before it, or of the one after it at the begin; else they are drawn.
-fn shift(
-    values: &mut Values,
+/// Iterations that a loop has more, or less.
+struct Shift<'a> {
+    levels: &'a Iterations,
+    by: isize,
+}
+
+/// The values of a run whose loops have iterations more or less, in several `ways`: each at a place of its own, the same in all loops.
+fn shifted(
+    values: &Values,
     task: &Task,
     trace: &Trace,
-    levels: &Iterations,
-    u: f64,
-    by: isize,
-    copied: bool,
-) {
-    let program = &*task.program;
-    let (count, size) = (levels.parts.len(), by.unsigned_abs());
-    let moved =
-        |from: usize, to: usize| trace.moved(program, levels.parts[from], levels.path_of(to), &Within::All);
-    let place = |places: usize| ((u * places as f64) as usize).min(places.saturating_sub(1));
-    let mut after = vec![];
-    let first = if by > 0 { place(count + 1) } else { place((count + 1).saturating_sub(size)) };
-    for number in first..count {
-        take(values, task, trace, &moved(number, number));
-        let to = number as isize + by;
-        if to >= first as isize {
-            after.push(moved(number, to as usize));
+    shifts: &[Shift<'_>],
+    ways: usize,
+    rng: &mut Stream,
+) -> Vec<Values> {
+    let is_drawn = rng.uniform() < DRAWN;
+    (0..ways.max(1))
+        .map(|_| {
+            let (fill, u) = match rng.uniform() {
+                below if is_drawn && below < AT_END => (Fill::Drawn, 1.0),
+                _ if is_drawn => (Fill::Drawn, rng.uniform()),
+                below if below < 0.5 => (Fill::Copied, rng.uniform()),
+                _ => (Fill::Shared, rng.uniform()),
+            };
+            let mut values = values.clone();
+            for shift in shifts {
+                let shares = shares(shift.by.max(0) as usize + 1, rng);
+                shift.apply(&mut values, task, trace, u, fill, &shares);
+            }
+            values
+        })
+        .collect()
+}
+
+/// Positive numbers that sum to 1, drawn evenly.
+fn shares(count: usize, rng: &mut Stream) -> Vec<f64> {
+    let mut ends: Vec<f64> = (1..count).map(|_| rng.uniform()).chain([1.0]).collect();
+    ends.sort_by(f64::total_cmp);
+    let begins = [0.0].into_iter().chain(ends.iter().copied());
+    ends.iter().zip(begins).map(|(end, begin)| end - begin).collect()
+}
+
+impl Shift<'_> {
+    /// Adds iterations to the loop at the place `u`, a share of its length, and moves those after it; or removes as many.
+    /// New ones have, or share, the values of the one before them, or of the one after them at the begin.
+    fn apply(&self, values: &mut Values, task: &Task, trace: &Trace, u: f64, fill: Fill, shares: &[f64]) {
+        let (levels, by, program) = (self.levels, self.by, &*task.program);
+        let (count, size) = (levels.parts.len(), by.unsigned_abs());
+        let moved = |from: usize, to: usize| {
+            trace.moved(program, levels.parts[from], levels.path_of(to), &Within::All)
+        };
+        let place = |places: usize| ((u * places as f64) as usize).min(places.saturating_sub(1));
+        let mut after = vec![];
+        let first = if by > 0 { place(count + 1) } else { place((count + 1).saturating_sub(size)) };
+        for number in first..count {
+            take(values, task, trace, &moved(number, number));
+            let to = number as isize + by;
+            if to >= first as isize {
+                after.push(moved(number, to as usize));
+            }
+        }
+        // The iteration before the place, or else the one after it.
+        let model = first.saturating_sub(1).min(count.saturating_sub(1));
+        if by > 0 && count > 0 && fill != Fill::Drawn {
+            (first..first + size).for_each(|number| after.push(moved(model, number)));
+        }
+        after.iter_mut().for_each(|moved| put(values, task, trace, moved));
+        if fill != Fill::Shared || count == 0 {
+            return;
+        }
+        let real = |n: usize| match trace.choice(program, n).0 {
+            Value::Real(x) => Some(*x),
+            _ => None,
+        };
+        if by > 0 {
+            // At the begin, the iteration beside the new ones has moved behind them.
+            let beside = if first == 0 { size } else { model };
+            for (number, share) in [beside].into_iter().chain(first..first + size).zip(shares) {
+                for (address, n) in moved(model, number).choices {
+                    real(n).map(|x| values.insert(address, Value::Real(share * x)));
+                }
+            }
+        } else {
+            let heir = if first > 0 { Some(model) } else { (first + size < count).then_some(0) };
+            for (heir, removed) in heir.into_iter().flat_map(|to| (first..first + size).map(move |n| (to, n)))
+            {
+                for (address, n) in moved(removed, heir).choices {
+                    if let (Some(x), Some(Value::Real(had))) = (real(n), values.get_mut(&address)) {
+                        *had += x;
+                    }
+                }
+            }
         }
     }
-    // The iteration before the place, or else the one after it.
-    let model = first.saturating_sub(1).min(count.saturating_sub(1));
-    if by > 0 && count > 0 && copied {
-        (first..first + size).for_each(|number| after.push(moved(model, number)));
-    }
-    after.iter_mut().for_each(|moved| put(values, task, trace, moved));
 }
 
 /// Removes the choices of a part that is at its place.
@@ -316,8 +413,9 @@ mod tests {
         for seed in 0..count {
             let (state, _) = State::start(&task, Streams::new(seed, 0), 1, None).expect("a run");
             let mut rng = Stream::new(seed, 1, 2, 3);
-            let edit = draw(&task, &state, &Tries::default(), &mut rng).expect("no fault").expect("an edit");
-            match State::start(&task, Streams::new(seed, 1), 1, Some(&edit.values)) {
+            let edit =
+                draw(&task, &state, &Tries::default(), 3, &mut rng).expect("no fault").expect("an edit");
+            match State::start(&task, Streams::new(seed, 1), 1, Some(&edit.ways[0])) {
                 Ok((after, _)) => all.push((lists(&state), lists(&after))),
                 Err(Failure::NoStart { .. }) => {}
                 Err(_) => panic!("a fault"),
@@ -330,7 +428,7 @@ mod tests {
     fn a_turned_count_holds_what_stands_and_moves_what_is_behind() {
         let (mut inside, mut at_end) = (0, 0);
         for (old, new) in edited(COUNTED, 600) {
-            if old[0].len() == new[0].len() {
+            if old[0].len() == new[0].len() || is_shared(&old, &new) {
                 continue;
             }
             assert_eq!(new[0].len(), new[1].len());
@@ -341,6 +439,29 @@ mod tests {
             if x.0 == kept { at_end += 1 } else { inside += 1 }
         }
         assert!(inside > 40 && at_end > 40, "{inside} {at_end}");
+    }
+
+    /// Whether the sums of both lists stay.
+    fn is_shared(old: &Lists, new: &Lists) -> bool {
+        let sum = |list: &[Value]| {
+            let reals = list.iter().map(|value| if let Value::Real(x) = value { *x } else { 0.0 });
+            reals.sum::<f64>()
+        };
+        old.iter().zip(new).all(|(old, new)| (sum(old) - sum(new)).abs() < 1e-9)
+    }
+
+    #[test]
+    fn iterations_share_what_one_had() {
+        let (mut longer, mut shorter) = (0, 0);
+        for (old, new) in edited(COUNTED, 1500).into_iter().filter(|(old, new)| is_shared(old, new)) {
+            let (before, after) = (old[0].len(), new[0].len());
+            let kept = |at: usize| ends(&old[at], &new[at]).0 + ends(&old[at], &new[at]).1;
+            // All stay but the one that shares, before or after.
+            assert!(before == after || kept(0).min(kept(1)) + 1 >= before.min(after), "{old:?} {new:?}");
+            longer += usize::from(after > before);
+            shorter += usize::from(after < before);
+        }
+        assert!(longer > 40 && shorter > 3, "{longer} {shorter}");
     }
 
     #[test]

@@ -14,7 +14,7 @@ use niwaki_math::RngCore;
 use niwaki_run::streams::Reserved;
 use niwaki_run::{Failure, Task};
 
-/// The most runs that are tried for an edit.
+/// The number of runs after which an edit without a possible one is given up.
 const TRIES: u64 = 4;
 /// The work of the first stage of moves that improve an edited run, as proposals for each of its choices; each further stage has twice as
 /// much.
@@ -47,20 +47,19 @@ impl Search<'_> {
             }
             let mut rng = Reserved::Improve.stream(seed, visit, 0);
             let length = present.primitives as u64 + 1;
-            let Some(edit) = edits::draw(self.task, &present, &self.tries, &mut rng)? else {
+            let most = self.improve.regrow;
+            let Some(edit) = edits::draw(self.task, &present, &self.tries, most, &mut rng)? else {
                 work = self.slice;
                 break;
             };
-            let Edit { values, form, runs } = edit;
-            work += runs * length;
+            let Edit { ways, form, runs } = edit;
             let chain_seed = rng.next_u64();
-            let Some((edited, tries)) = possible(self.task, &values, chain_seed)? else {
-                work += TRIES * length;
+            let (edited, tries) = self.best_way(&ways, chain_seed)?;
+            work += (runs + tries) * length;
+            let Some(Way { state: edited, new }) = edited else {
                 self.tries.note(form, false);
                 continue;
             };
-            work += tries * length;
-            let new = edits::new_parts(self.task, &edited, &values);
             let so_far = present.log_score();
             let mut chain = self.chain(kernel, edited, chain_seed, 0)?;
             if !new.is_empty() && !self.task.program.memoises() {
@@ -100,6 +99,33 @@ impl Search<'_> {
         Ok((work, kept))
     }
 
+    /// The best of several runs of an edit, and the number of runs. Runs differ in the ways of the edit, and in their new values;
+    /// where new values have a scene of their own, particles draw them later, and the first possible run is enough.
+    fn best_way(&self, ways: &[Values], seed: u64) -> Result<(Option<Way>, u64), Failure> {
+        let mut best: Option<Way> = None;
+        let most = TRIES.max(self.improve.regrow as u64);
+        for number in 0..most {
+            let values = &ways[number as usize % ways.len()];
+            let Some(state) = possible(self.task, values, seed, number)? else {
+                if best.is_none() && number + 1 >= TRIES.max(ways.len() as u64) {
+                    return Ok((None, number + 1));
+                }
+                continue;
+            };
+            let new = edits::new_parts(self.task, &state, values);
+            let is_known =
+                || state.choices(&self.task.program).all(|(address, _)| values.contains_key(&address));
+            let is_enough = !new.is_empty() || ways.len() == 1 && is_known();
+            if best.as_ref().is_none_or(|best| state.log_score() > best.state.log_score()) {
+                best = Some(Way { state, new });
+            }
+            if is_enough {
+                return Ok((best, number + 1));
+            }
+        }
+        Ok((best, most))
+    }
+
     /// A chain from a state.
     fn chain(&self, kernel: &Kernel, state: State, seed: u64, number: u64) -> Result<Chain, Failure> {
         let settings = Settings { seed, thin: 0, ..Settings::default() };
@@ -109,10 +135,16 @@ impl Search<'_> {
     }
 }
 
-/// The state of a possible run with these values, and the number of runs. `None` if there was none.
-fn possible(task: &Task, values: &Values, seed: u64) -> Result<Option<(State, u64)>, Failure> {
-    match State::tried(task, Streams::new(seed, 0), TRIES, Some(values)) {
-        Ok((state, _, tries)) => Ok(Some((state, tries))),
+/// A run of an edit, and its parts that are new and have a scene of their own.
+struct Way {
+    state: State,
+    new: Vec<u128>,
+}
+
+/// The state of a run with these values. `None` if it is impossible or invalid.
+fn possible(task: &Task, values: &Values, seed: u64, number: u64) -> Result<Option<State>, Failure> {
+    match State::tried(task, Streams::new(seed, number), 1, Some(values)) {
+        Ok((state, ..)) => Ok(Some(state)),
         Err(Failure::NoStart { .. }) => Ok(None),
         Err(failure) if failure.is_impossible() => Ok(None),
         Err(failure) => Err(failure),

@@ -1,4 +1,4 @@
-//! Moves of single choices, and calls drawn anew.
+//! Moves of single choices, exchanges between two choices of a site, and calls drawn anew.
 
 use super::{Arm, Form, Sizes, Step, leaf};
 use niwaki_chain::kernel::Kernel;
@@ -14,6 +14,7 @@ pub(super) fn kernel(_: &Sizes) -> Result<Kernel, Fault> {
         (4.0, Kernel::PRIOR),
         (4.0, drift(0.3)?),
         (2.0, drift(0.05)?),
+        (4.0, Kernel::EXCHANGE),
         (1.0, leaf("regenerate", json!({"levels": 0}))?),
     ]))
 }
