@@ -156,10 +156,10 @@ def grow(
     target
         The volume to fill: a `Target`, or a file. It may be left out if `score` has something to match.
     args, kwargs
-        The model's arguments. `rounds`, `seconds`, `effort`, `diverse`, `generations`, `by`, `margin`, `bins` and `guide` are settings
-        of the default search. With any other setting of `smc` (particles, order, power, ...) the search is one
-        population by these settings, with a default `power` of 16 for ratio weights (1 for drawings); with a `guide`
-        its defaults are 50 particles and tempered resampling.
+        The model's arguments. `rounds`, `seconds`, `effort`, `diverse`, `generations`, `by`, `margin`, `bins` and
+        `guide` are settings of the default search. With any other setting of `smc` (particles, order, power, ...) the
+        search is one population by these settings, with a default `power` of 16 for ratio weights (1 for drawings);
+        with a `guide` its defaults are 50 particles and tempered resampling.
     score
         Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`. They multiply
         `no_self_intersection(rule)` and, if there is a target, `match_volume(target, voxel, sigma, weight)`. Drawings
