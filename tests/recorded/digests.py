@@ -65,7 +65,7 @@ OF_A_PLACE = {"core", "cpu_seconds", "file", "file_hash", "files", "hash", "niwa
 
 #: Numbers of a text that are times or depend on them.
 TIMES = re.compile(
-    r"\d[\d.,]* ?(?:m?s\b|seconds\b|a second\b)|\b(start|compile|target|search|runs|pictures?|files) \d\.\d+"
+    r"\d[\d.,]* ?(?:m?s\b|seconds\b|a second\b)|\b(start|compile|target|search|runs|pictures?|files) \d+\.\d+"
 )
 
 #: The hash of what was searched, which has the place of the model's source in it.
