@@ -37,8 +37,8 @@ def branch(page):
     visible = page.evaluate(
         "window.__studio.shown.parts.map(part => [part, window.__studio.pointOf(part)]).filter(([_, at]) => at)"
     )
-    deep = [(part, at) for part, at in visible if part.count("branch") >= 6] or visible
-    address, (x, y) = deep[len(deep) // 2]
+    # No part follows a tip, so that it has room to move.
+    address, (x, y) = max(visible, key=lambda entry: entry[0].count("branch"))
     box = page.locator("main.stage").bounding_box()
     return address, box["x"] + x, box["y"] + y
 
