@@ -60,7 +60,7 @@ def test_the_page_looks_as_approved(open_page, served, grown, theme, request):
         grown.append(True)
     at_rest(page)
     # The target is a part of what the camera frames.
-    until(page, "window.__studio.isGhostShown")
+    until(page, "window.__studio.ghost > 0")
     for wide, high in SIZES:
         resize(page, wide, high)
         page.keyboard.press("f")
