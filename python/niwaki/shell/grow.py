@@ -19,6 +19,7 @@ from niwaki import result as results
 from niwaki.errors import InputError
 from niwaki.errors.folders import held_folder
 from niwaki.errors.schema import fitted
+from niwaki.requirements import Keep
 from niwaki.result import parts
 from niwaki.shares import percent
 from niwaki.shell import (
@@ -74,8 +75,9 @@ def grow(
         )
         with held_folder(source.resume) as folder:
             _, spent, _ = evaluations.sized(search, is_free=False)
-            kept = _run(search, reference, threads, stored, clock, verbose, spent)
-            _end(*kept, reference, folder, contents, out, stored, clock, verbose)
+            rules = requirements.beside(reference)
+            kept = _run(search, reference, rules, threads, stored, clock, verbose, spent)
+            _end(*kept, reference, rules, folder, contents, out, stored, clock, verbose)
         return
     patterns, values = origin.read(origin_flags)
     earlier = None
@@ -109,7 +111,8 @@ def grow(
             )
         else:
             search = earlier.search_again(reference, search_flags, method_settings, arguments, hold or None)
-    if rules := requirements.beside(reference):
+    rules = requirements.beside(reference)
+    if rules is not None:
         search = replace(search, score=rules.aims(search.score))
     is_free = earlier is None and not set(settings.typed(method_settings)) & {
         "particles",
@@ -136,8 +139,20 @@ def grow(
             else:
                 if folder is not None:
                     checkpoint = resume.new_checkpoint(folder, "grow", reference, **asdict(contents))
-                result, conflicts = _run(search, reference, threads, checkpoint, clock, verbose, spent)
-        _end(result, conflicts, reference, folder, contents, out, checkpoint, clock, verbose, single_file)
+                result, conflicts = _run(search, reference, rules, threads, checkpoint, clock, verbose, spent)
+        _end(
+            result,
+            conflicts,
+            reference,
+            rules,
+            folder,
+            contents,
+            out,
+            checkpoint,
+            clock,
+            verbose,
+            single_file,
+        )
 
 
 def _is_given(context: typer.Context, name: str) -> bool:
@@ -149,6 +164,7 @@ def _is_given(context: typer.Context, name: str) -> bool:
 def _run(
     search: nw.Search,
     reference: shell.references.ModelReference,
+    rules: Keep | None,
     threads: int | None,
     checkpoint: nw.Checkpoint | None,
     clock: Clock,
@@ -156,8 +172,6 @@ def _run(
     spent: evaluations.Evaluations,
 ) -> tuple[nw.Result, list[str]]:
     """Run the search, with a line about its progress, until results keep the requirements beside the model."""
-    rules = requirements.beside(reference)
-
     method = search.method
     count = getattr(method, "diverse", None) or search.runs
 
@@ -221,6 +235,7 @@ def _end(
     result: nw.Result,
     conflicts: list[str],
     reference: shell.references.ModelReference,
+    rules: Keep | None,
     folder: Path | None,
     contents: Contents,
     out: folders.Destination,
@@ -242,7 +257,6 @@ def _end(
         else:
             with resume.remove_when_done(result, checkpoint):
                 _write(place, result, data, contents, clock)
-    rules = requirements.beside(reference)
     unmet = [] if rules is None else rules.unmet(result.best)
     if out.as_json:
         runs = [shell.run_files.numbers(sample) | {"seed": sample.seed} for sample in result]

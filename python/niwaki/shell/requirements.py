@@ -15,10 +15,11 @@ from niwaki.requirements import Keep
 from niwaki.requirements.conflicts import against, rivals
 from niwaki.requirements.form import Form
 from niwaki.requirements.rows import RequirementRow
-from niwaki.result import Result, Sample
+from niwaki.result import Result
 from niwaki.search.kinds import TOO_FEW, narrow
 from niwaki.search.warnings import SearchWarning
 from niwaki.shell.references import ModelReference
+from niwaki.targets.target import Target
 
 NAME = "requirements.toml"
 #: The most searches, with consecutive seeds, for a result that keeps the requirements.
@@ -83,26 +84,29 @@ def keeping(
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", TOO_FEW, SearchWarning)
             result = attempt((seed + number) % 2**53, max(count, CANDIDATES))
-    return first, [] if result.interrupted or not first.samples else list(
-        conflicts(rules, first.best, judged)
-    )
+    if result.interrupted or not first.samples:
+        return first, []
+    # The rows of the first search come first.
+    of_best = judged[first.samples.index(first.best)]
+    return first, list(conflicts(rules, first.search.score.target, of_best, judged))
 
 
-def conflicts(rules: Keep, best: Sample, judged: Sequence[Judged]) -> Iterator[str]:
+def conflicts(rules: Keep, target: Target | None, of_best: Judged, judged: Sequence[Judged]) -> Iterator[str]:
     """Say what each requirement that a result does not keep stands against.
 
     Parameters
     ----------
     rules
         The requirements.
-    best
-        The result.
+    target
+        The target of the search; None without one.
+    of_best
+        The result, held against the requirements.
     judged
         All results that no search could better, held against the requirements.
     """
-    solid = best.search.score.target
-    of_target = [] if solid is None else rules.judged(Form.of_target(solid))
-    for place, row in enumerate(rules.judged(best)):
+    of_target = [] if target is None else rules.judged(Form.of_target(target))
+    for place, row in enumerate(of_best):
         if row.holds:
             continue
         if of_target and not of_target[place].holds:

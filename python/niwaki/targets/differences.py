@@ -67,10 +67,7 @@ class ScoreDifference:
 
     def __call__(self, shapes: Sequence[_engine.Shape], scene: Scene) -> NDArray[np.float64]:
         """Return the difference."""
-        sketch = _engine.Sketch([self.spec])
-        for part in scene.parts:
-            sketch.add(list(part.shapes))
-        measures = sketch.measures()
+        measures = _measures(self.spec, scene)
         similarity = measures.get("similarity", measures.get("score", 0.0))
         return np.array([(1.0 - similarity) / self.sigma])
 
@@ -248,10 +245,15 @@ class LimitDifferences:
 
     def __call__(self, shapes: Sequence[_engine.Shape], scene: Scene) -> NDArray[np.float64]:
         """Return the difference."""
-        sketch = _engine.Sketch([self.spec])
-        for part in scene.parts:
-            sketch.add(list(part.shapes))
-        return np.array([min(sketch.measures()["excess"] / self.sigma, FARTHEST)])
+        return np.array([min(_measures(self.spec, scene)["excess"] / self.sigma, FARTHEST)])
+
+
+def _measures(spec: _engine.SketchSpec, scene: Scene) -> dict[str, float]:
+    """Return the measures of a sketch of a scene."""
+    sketch = _engine.Sketch([spec])
+    for part in scene.parts:
+        sketch.add(list(part.shapes))
+    return sketch.measures()
 
 
 def _cuts(count: int, step: float) -> NDArray[np.int64]:
