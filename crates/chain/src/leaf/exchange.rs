@@ -15,7 +15,6 @@ use crate::walk::streams::below;
 use crate::walk::{ChainMove, Proposing, Walk};
 use niwaki_math::Stream;
 use niwaki_run::Failure;
-use niwaki_run::fresh::Fresh;
 use niwaki_vm::machine::kept::{Changed, Proposed, Trace};
 use niwaki_vm::value::Value;
 
@@ -57,11 +56,7 @@ impl ChainMove for Exchange {
             let proposed = Proposed { value: Value::Real(x + by), forward: 0.0, backward: 0.0 };
             changes.push(Changed { choice, proposed });
         }
-        let mut answers = Fresh::plain(chain.streams.fresh(visit), &*task.hosts);
-        let change = match machine.change(&mut chain.state.trace, changes, chain.strategy, &mut answers) {
-            Ok(change) => change,
-            Err(met) => chain.give_up(task, met)?,
-        };
+        let change = chain.change(task, machine, visit, changes)?;
         let selection = |chain: &Walk| {
             let trace = &chain.state.trace;
             let is_same = trace.births(program).len() == 0 && trace.deaths().is_empty();

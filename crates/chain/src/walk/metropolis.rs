@@ -25,7 +25,7 @@ use niwaki_run::fresh::Fresh;
 use niwaki_run::{Failure, Task};
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::Machine;
-use niwaki_vm::machine::kept::Change;
+use niwaki_vm::machine::kept::{Change, Changed};
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::value::Value;
 
@@ -193,5 +193,21 @@ impl Walk {
         }
         self.state.trace.rollback(&task.program);
         Err(met.into())
+    }
+
+    /// Gives several choices new values, and runs again what depends on them. The visit numbers the draws of new choices.
+    ///
+    /// # Errors
+    /// A fault that makes no run invalid; the chain returns to its last state.
+    pub(crate) fn change(
+        &mut self,
+        task: &Task,
+        machine: &mut Machine,
+        visit: u64,
+        changes: Vec<Changed<f64>>,
+    ) -> Result<Change, Failure> {
+        let mut answers = Fresh::plain(self.streams.fresh(visit), &*task.hosts);
+        let changed = machine.change(&mut self.state.trace, changes, self.strategy, &mut answers);
+        changed.or_else(|met| self.give_up(task, met))
     }
 }

@@ -9,7 +9,7 @@
 //! The step keeps the best scene from lying just beyond a limit, where a target pulls it across.
 
 use super::bag::Bag;
-use super::overshoot::overshoot;
+use super::overshoot::{check_box, overshoot};
 use super::score::{Sketch, SketchSpec, check_sigma};
 use crate::bounds::Aabb;
 use crate::error::GeomError;
@@ -36,13 +36,7 @@ pub fn limits(
         let message = format!("the height is to be {least} to {most}, expected the least height first");
         return Err(GeomError::new("bad-setting", message));
     }
-    if let Some(Aabb { low, high }) = within {
-        let sides = low.to_array().into_iter().zip(high.to_array());
-        if !low.is_finite() || !high.is_finite() || sides.into_iter().any(|(a, b)| a >= b) {
-            let message = format!("the box from {low:?} to {high:?} has no inside");
-            return Err(GeomError::new("bad-setting", message));
-        }
-    }
+    within.iter().try_for_each(check_box)?;
     Ok(Arc::new(Limits { height, within, sigma, bag: Bag::default() }))
 }
 

@@ -21,13 +21,22 @@ use std::sync::Arc;
 /// `bad-setting` when `sigma` is not positive, or for a box without extent along an axis.
 pub fn no_overshoot(domain: Aabb, sigma: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
     check_sigma(sigma)?;
+    check_box(&domain)?;
+    Ok(Arc::new(Overshoot { domain, sigma, bag: Bag::default() }))
+}
+
+/// Checks that a box has an inside.
+///
+/// # Errors
+/// `bad-setting` for a box without extent along an axis, or without an end.
+pub(super) fn check_box(domain: &Aabb) -> Result<(), GeomError> {
     let extent = domain.extent().to_array();
     if !domain.low.is_finite() || !domain.high.is_finite() || extent.iter().any(|e| *e <= 0.0) {
         let (low, high) = (domain.low.to_array(), domain.high.to_array());
         let message = format!("the box from {low:?} to {high:?} has no inside");
         return Err(GeomError::new("bad-setting", message));
     }
-    Ok(Arc::new(Overshoot { domain, sigma, bag: Bag::default() }))
+    Ok(())
 }
 
 impl SketchSpec for Overshoot {

@@ -28,7 +28,6 @@ use niwaki_continuous::hamiltonian::{Cause, Kernel};
 use niwaki_grad::{Continuous, Model, Transform};
 use niwaki_propose::gradient;
 use niwaki_propose::gradient::follow::reason;
-use niwaki_run::fresh::Fresh;
 use niwaki_run::setting::{BETWEEN, POSITIVE, Range, Ranges, SHARE, SMALL_COUNT};
 use niwaki_run::{Failure, Task};
 use niwaki_vm::machine::kept::{Changed, Proposed};
@@ -233,11 +232,7 @@ impl ChainMove for Trajectory {
             let (forward, backward) = if changes.is_empty() { (forward, backward) } else { (0.0, 0.0) };
             changes.push(Changed { choice, proposed: Proposed { value, forward, backward } });
         }
-        let mut answers = Fresh::plain(chain.streams.fresh(visit), &*task.hosts);
-        let change = match machine.change(&mut chain.state.trace, changes, chain.strategy, &mut answers) {
-            Ok(change) => change,
-            Err(met) => chain.give_up(task, met)?,
-        };
+        let change = chain.change(task, machine, visit, changes)?;
         let selection = |chain: &Walk| {
             let trace = &chain.state.trace;
             // New draws are not part of the recorded density: the reverse trajectory would not lead back here.
