@@ -54,12 +54,13 @@ def open_page(browser, request):
     """A function that opens a window of a studio. The test fails if a script of the page fails."""
     contexts = []
 
-    def open_window(served: Served, token: str | None = None, **settings):
+    def open_window(served: Served, token: str | None = None, script: str = "", **settings):
         # Playwright needs `eval` to wait; another test checks the policy's header.
         options = {"viewport": {"width": 1440, "height": 900}, **settings}
         context = browser.new_context(bypass_csp=True, **options)
         contexts.append(context)
         page = context.new_page()
+        page.add_init_script(script)
         page.errors = []
         page.on("pageerror", lambda error: page.errors.append(str(error)))
         page.set_default_timeout(60_000)

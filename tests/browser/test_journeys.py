@@ -210,6 +210,20 @@ def test_two_windows_share_a_session_and_have_separate_views(open_page, served):
     assert (camera(second) == before).all()
 
 
+#: Frames and timers of a page come a second late, as on a machine that has much to do.
+LATE = """
+const [frame, timer] = [requestAnimationFrame, setTimeout];
+window.requestAnimationFrame = (call) => frame(() => timer(call, 1000));
+window.setTimeout = (call, wait, ...rest) => timer(call, (wait ?? 0) + 1000, ...rest);
+"""
+
+
+def test_a_window_that_draws_late_shows_the_target(open_page, served):
+    choose(open_page(served), "spaceship")
+    late = open_page(served, script=LATE)
+    until(late, "window.__studio.ghost > 0")
+
+
 def test_no_request_leaves_the_machine_and_the_security_policy_holds(browser, served):
     context = browser.new_context()
     page = context.new_page()

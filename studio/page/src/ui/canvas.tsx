@@ -1,7 +1,7 @@
 // The middle: the scene, the pen, messages, and the error of a model that does not compile.
 
 import { effect } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import type { Key, Shape } from "../messages";
 import * as store from "../store";
 import { isBelow, Stage } from "../view";
@@ -22,7 +22,8 @@ export const shown = { key: null as Key | null, role: "", detail: "", bests: 0, 
 export function Canvas() {
   const canvas = useRef<HTMLCanvasElement>(null);
   const holder = useRef<HTMLDivElement>(null);
-  useEffect(() => {
+  // Before any message of the studio arrives: an effect after the first frame would miss the target.
+  useLayoutEffect(() => {
     stage = new Stage(
       canvas.current!,
       store.ask,
