@@ -121,9 +121,11 @@ studio-page: $(STAMPS)/engine $(STAMPS)/test
 	$(PY) -m niwaki.studio.types studio/page/src/messages.ts
 	cd studio/page && npm ci --silent --no-audit --no-fund && npm run --silent check && npm run --silent build
 
+# Two browsers at once; one where pictures and times are taken for the manual.
+BROWSERS = $(if $(NIWAKI_PICTURES)$(NIWAKI_TIMES),,-n 2 --dist loadfile)
 test-studio: $(STAMPS)/engine $(STAMPS)/test
 	@if command -v chromium >/dev/null; then \
-	  $(MAKE) --no-print-directory $(STAMPS)/browser && NIWAKI_BROWSER=$$(command -v chromium) $(PY) -m pytest tests/browser; \
+	  $(MAKE) --no-print-directory $(STAMPS)/browser && NIWAKI_BROWSER=$$(command -v chromium) $(PY) -m pytest $(BROWSERS) tests/browser; \
 	else echo "no chromium found: the studio's page is not tested in a browser (apt-get install chromium)"; fi
 
 studio-pictures:

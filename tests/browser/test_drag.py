@@ -33,12 +33,15 @@ def tree(open_page, served):
 
 
 def branch(page):
-    """Find a well visible branch: its address and a visible point of it, in pixels of the page."""
-    visible = page.evaluate(
-        "window.__studio.shown.parts.map(part => [part, window.__studio.pointOf(part)]).filter(([_, at]) => at)"
-    )
+    """Find the deepest visible branch: its address and a visible point of it, in pixels of the page."""
     # No part follows a tip, so that it has room to move.
-    address, (x, y) = max(visible, key=lambda entry: entry[0].count("branch"))
+    address, (x, y) = page.evaluate("""(() => {
+      const depth = (part) => part.split("branch").length;
+      for (const part of window.__studio.shown.parts.toSorted((a, b) => depth(b) - depth(a))) {
+        const at = window.__studio.pointOf(part);
+        if (at) return [part, at];
+      }
+    })()""")
     box = page.locator("main.stage").bounding_box()
     return address, box["x"] + x, box["y"] + y
 
