@@ -18,6 +18,7 @@ from niwaki.methods.kernels import Kernel
 from niwaki.result import Result, Sample
 from niwaki.result.chains import MhInfo
 from niwaki.result.drawn import DrawnInfo
+from niwaki.result.normals import ViInfo
 from niwaki.search import Search
 from niwaki.words import Vec
 from PIL import Image, ImageSequence
@@ -58,6 +59,12 @@ READ_LATE = {
     MhInfo: ("bests", "last", "acceptance", "trajectories"),
     DrawnInfo: ("values", "positions", "log_prior", "log_score"),
 }
+#: Numbers that NumPy computes by functions whose last bits depend on the processor, and the digits that count.
+OF_NUMPY = {
+    Sample: {"log_weight"},
+    ViInfo: {"bound_error", "k_curvature", "k_curvature_error", "k_hat", "log_evidence", "log_weights"},
+}
+DIGITS = 6
 
 #: Keys of a JSON file that say when, where and by which version it was written, where the model stands in its source,
 #: or what the bytes of the files beside it are, which have digests of their own.
@@ -134,7 +141,15 @@ def _named(value: Any, names: Iterable[str]) -> Iterable[bytes]:
             yield name.encode()
             # The run itself holds the places of words.
             of_places = name == "choices" and isinstance(value, Sample)
-            yield from _parts(value.places if of_places else getattr(value, name))
+            part = value.places if of_places else getattr(value, name)
+            yield from _parts(_rounded(part) if name in OF_NUMPY.get(type(value), ()) else part)
+
+
+def _rounded(value: Any) -> Any:
+    """A number or an array as texts of few digits."""
+    if value is None:
+        return None
+    return f"{value:.{DIGITS}g}" if np.ndim(value) == 0 else [_rounded(part) for part in value]
 
 
 def _scene(result: Result) -> Iterable[bytes]:

@@ -14,12 +14,17 @@ from niwaki.targets.target import Target
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.int64]]
 
+#: Digits after the point of a target's vertices: sines of different processors differ in far smaller ones.
+DIGITS = 9
+
 
 def solid(name: str, parts: Sequence[Mesh]) -> Target:
-    """Make a target of closed parts, which may overlap."""
+    """Make a target of closed parts, which may overlap; rounded, so that it has the same bytes on every processor."""
     starts = np.cumsum([0, *(len(vertices) for vertices, _ in parts)])
     faces = [faces + start for (_, faces), start in zip(parts, starts, strict=False)]
-    return Target(np.concatenate([vertices for vertices, _ in parts]), np.concatenate(faces), name)
+    # A zero with a sign would depend on what is rounded away.
+    vertices = np.round(np.concatenate([vertices for vertices, _ in parts]), DIGITS) + 0.0
+    return Target(vertices, np.concatenate(faces), name)
 
 
 def loft(sections: Sequence[ArrayLike], closed: bool = False) -> Mesh:
