@@ -15,7 +15,8 @@ pytest.importorskip("starlette")
 from niwaki.studio import messages as m
 from niwaki.studio import process
 from niwaki.studio.process import Worker
-from niwaki.studio.session import Session, begin, reload
+from niwaki.studio.session import Session, begin, reload, reshaping, searching
+from niwaki.studio.window import Window
 from niwaki.studio.worker import models, offers
 from studio_process import PILE
 
@@ -109,6 +110,40 @@ def test_a_file_that_is_mended_while_it_loads_is_not_waited_for(tmp_path, monkey
             await reload(session, {place})
             await first
             assert session.problem is None and session.model is not None and session.model.parameters
+        finally:
+            await session.end()
+
+    alive(work())
+
+
+def test_a_result_that_is_run_again_is_dropped_where_a_search_has_replaced_it(tmp_path):
+    place = tmp_path / "pile.py"
+    place.write_text(PILE)
+    settings = m.Settings(count=1, seed=1, effort=0.05)
+
+    async def work() -> None:
+        session = Session(tmp_path / "session", [str(place)])
+        window = Window()
+        try:
+            await begin(session)
+            session.step("set", {"ask": m.Ask(target=m.TargetAsk("box")), "settings": settings})
+            await searching.run(session, window, m.Run())
+            do, released = session.desk.do, asyncio.Event()
+
+            async def late(job: m.Job, report: Any = None) -> m.Answer:
+                answer = await do(job, report)
+                if isinstance(job, m.Change):
+                    await released.wait()
+                return answer
+
+            session.desk.do = late
+            again = asyncio.create_task(reshaping.reshape(session))
+            await asyncio.sleep(0)
+            await searching.run(session, window, m.Run())
+            results, picked = session.document.results, session.document.picked
+            released.set()
+            await again
+            assert session.document.results == results and session.document.picked == picked
         finally:
             await session.end()
 

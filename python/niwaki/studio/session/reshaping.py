@@ -60,6 +60,8 @@ async def _change(session: Session, changes: dict[str, Any], is_end: bool, origi
         origin=origin,
     )
     answer = await session.desk.do(job, session.forward)
-    if answer.outcomes:
+    # A search may have ended meanwhile, whose results are newer than what follows from a former one by itself.
+    is_late = origin == "reload" and picked not in {outcome.key for outcome in session.document.results}
+    if answer.outcomes and not is_late:
         session.replace(origin, picked, of_model(answer.outcomes, job.question.model))
     return answer
