@@ -9,7 +9,8 @@ Each search of a problem is a line of out/fit/records.jsonl (OUT names another f
 again. The eight old generators have two targets each, the eight fresh ones have one. Leaves tables.md in the folder.
 The tables have all records of the folder: what was done with a larger budget counts for fewer evaluations, too. The
 libraries of matrices are limited to one thread. Nevergrad, pymoo and openscad-evaluator need
-packages under the GPL or the LGPL, and are in no lock: what is not installed is left out, with a line.
+packages under the GPL or the LGPL, and are in no lock: what is not installed is left out, with a line. A peer that
+raises has the rows of what it did before.
 """
 
 import os
@@ -38,7 +39,10 @@ def searched(job: Job) -> list[dict[str, Any]]:
     if search == "fit":
         ours.search(problem, seed)
     else:
-        peers.search(problem, search, seed)
+        try:
+            peers.search(problem, search, seed)
+        except Exception as error:
+            print(f"{search} ended on {generator} {target}, seed {seed}: {error}", file=sys.stderr)
     return [
         dict(search=search, generator=generator, target=target, seed=seed, budget=budget, evaluations=mark)
         | dict(truth=problem.truth, overhead=1000 * judged.seconds / mark)
@@ -89,10 +93,8 @@ def main() -> int:
         for number, rows in enumerate(pool.imap_unordered(searched, missing)):
             for row in rows:
                 records.add(row)
-            print(
-                f"searches {number + 1} of {len(missing)}: {rows[0]['search']}, {rows[0]['generator']}",
-                flush=True,
-            )
+            names = {f"{row['search']}, {row['generator']}" for row in rows}
+            print(f"searches {number + 1} of {len(missing)}: {', '.join(names)}", flush=True)
     parts: list[str] = []
     for title, fresh in (("Old generators", False), ("Fresh generators", True)):
         rows = [row for row in table.distinct(records.rows) if GENERATORS[row["generator"]].is_fresh == fresh]
