@@ -105,17 +105,17 @@ def cma_me(search: Any, grid: dict[str, tuple[Any, ...]], seed: int) -> Iterator
         start = time.process_time()
         rows = emitters.ask()
         seconds += time.process_time() - start
-        told = []
+        results = []
         for row in rows:
-            made = choices(search.model, row.tolist(), places, seed + count)
+            values = choices(search.model, row.tolist(), places, seed + count)
             start = time.process_time()
-            score, steps = scored(search, made)
+            score, steps = scored(search, values)
             seconds, count = seconds + time.process_time() - start, count + steps
-            cell = [_place(values, made.get(address)) for address, values in grid.items()]
-            told.append((max(score, IMPOSSIBLE), cell))
-            yield made, score, count, seconds
+            cell = [_place(levels, values.get(address)) for address, levels in grid.items()]
+            results.append((max(score, IMPOSSIBLE), cell))
+            yield values, score, count, seconds
         start = time.process_time()
-        emitters.tell([score for score, _ in told], np.array([cell for _, cell in told]))
+        emitters.tell([score for score, _ in results], np.array([cell for _, cell in results]))
         seconds += time.process_time() - start
 
 
@@ -134,14 +134,14 @@ def scheduler(sizes: Sequence[int], width: int, seed: int) -> Any:
     return Scheduler(archive, emitters)
 
 
-def scored(search: Any, made: dict[str, Any]) -> tuple[float, int]:
+def scored(search: Any, values: dict[str, Any]) -> tuple[float, int]:
     """Return the log score of a run in a search, and its steps; a run that fails is impossible."""
     try:
-        run = search.task.replay(made).run
+        run = search.task.replay(values).run
     except (NiwakiError, _engine.EngineFault):
         return -math.inf, 1
     return run.log_score, run.primitives + 1
 
 
-def _place(values: tuple[Any, ...], value: Any) -> int:
-    return values.index(value) if value in values else len(values)
+def _place(levels: tuple[Any, ...], value: Any) -> int:
+    return levels.index(value) if value in levels else len(levels)

@@ -17,8 +17,8 @@ thread, after the model is compiled. Those of CMA-ME lack the runs in plain Pyth
 what the library compiles at its first use.
 
 *Coverage* is the share of combinations with a result. *QD* is the sum over combinations of what their best results
-have above `FLOOR` (Pugh, Soros & Stanley 2016). `--costs` compares `diverse=10` with one search, and makes 200 houses.
-`--sheets` draws what `diverse=10` gives for five models.
+have above `FLOOR` (Pugh, Soros & Stanley 2016). `--costs` compares `diverse=10` with one search at the
+default effort, and makes up to 200 houses of as many kinds. `--sheets` draws what `diverse=10` gives for five models.
 """
 
 import argparse
@@ -59,6 +59,16 @@ MODELS: dict[str, Grid] = {
     "spaceship": {"while[0]/kind": (0, 1, 2), "while[1]/kind": (0, 1, 2)},
     "castle": {"discrete_uniform": (0, 1, 2, 3, 4), "has_keep": (False, True)},
 }
+#: The choices of a house that make 384 kinds together.
+OF_HOUSES = (
+    "house/categorical",
+    "house/has_chimney",
+    *(
+        f"side[{side}]/{choice}"
+        for side in (0, 1)
+        for choice in ("beside", "house/categorical", "house/has_chimney")
+    ),
+)
 #: What the ways have in common.
 EQUAL = ("evaluations", "CPU")
 #: The log score that counts as nothing.
@@ -80,6 +90,7 @@ def main() -> int:
     warnings.simplefilter("ignore", nw.search.SearchWarning)
     if options.costs:
         costs(options.seeds)
+        houses(options.seeds)
         return 0
     if find_spec("ribs") is None:
         print("CMA-ME is left out: ribs is not installed", file=sys.stderr)
@@ -107,8 +118,8 @@ def measured(name: str, grid: Grid, seed: int, rounds: int, most: int) -> dict[t
         name, 1000 * seed, method=nw.improve(rounds=rounds, diverse=most, by=list(grid), margin=None)
     )
     limits = spent(archive)
-    found = [(sample.choices, sample.log_score) for sample in archive]
-    rows = {("archive", "both"): row(grid, best_of(grid, found), *limits)}
+    runs = [(sample.choices, sample.log_score) for sample in archive]
+    rows = {("archive", "both"): row(grid, best_of(grid, runs), *limits)}
     streams = {"independent": independent(name, seed, rounds)}
     if find_spec("ribs") is not None:
         streams["CMA-ME"] = flattened.cma_me(archive.search, grid, seed + 1)
@@ -145,7 +156,7 @@ def until(limits: tuple[float, float], grid: Grid, stream: Iterator[flattened.Ev
 
 def held(name: str, grid: Grid, archive: nw.Result, seed: int, place: int) -> Row:
     """Search with the choices of each combination held; `place` says what is equal."""
-    limit, totals, found = spent(archive)[place], (0.0, 0.0), []
+    limit, totals, runs = spent(archive)[place], (0.0, 0.0), []
     combinations = list(itertools.product(*grid.values()))
     for left, values in zip(range(len(combinations), 0, -1), combinations, strict=True):
         hold = dict(zip(grid, values, strict=True))
@@ -157,16 +168,16 @@ def held(name: str, grid: Grid, archive: nw.Result, seed: int, place: int) -> Ro
         totals = totals[0] + work, totals[1] + time
         # A held choice counts in the score: the run is scored again where nothing is held.
         choices = result.best.choices
-        found.append((choices, flattened.scored(archive.search, choices)[0]))
-    return row(grid, best_of(grid, found), *totals)
+        runs.append((choices, flattened.scored(archive.search, choices)[0]))
+    return row(grid, best_of(grid, runs), *totals)
 
 
 def best_of(
-    grid: Grid, found: list[tuple[dict[str, Any], float]], before: dict[Values, float] | None = None
+    grid: Grid, runs: list[tuple[dict[str, Any], float]], before: dict[Values, float] | None = None
 ) -> dict[Values, float]:
-    """Return the best score of each combination of the grid that was found, and of those from before."""
+    """Return the best score of each combination of the grid in some runs, and of those from before."""
     best = dict(before or {})
-    for choices, score in found:
+    for choices, score in runs:
         values = tuple(choices.get(choice) for choice in grid)
         if isfinite(score) and all(
             value in of_choice for value, of_choice in zip(values, grid.values(), strict=True)
@@ -194,30 +205,42 @@ def spent(result: nw.Result) -> tuple[float, float]:
 
 
 def costs(seeds: int) -> None:
-    """Compare ten results with one, and make 200 houses of 200 kinds, at the default effort."""
+    """Compare the costs of ten results with those of one at the default effort."""
     print("| model | work of ten / of one | CPU s of one | CPU s of ten | ratio |\n" + "| --- " * 5 + "|")
     for name in DRAWN:
         pairs = [(spent(grown(name, seed)), spent(grown(name, seed, diverse=10))) for seed in range(seeds)]
-        one, ten = (
+        single, ten = (
             [statistics.mean(column) for column in zip(*rows, strict=True)]
             for rows in zip(*pairs, strict=True)
         )
         print(
-            f"| {name} | {ten[0] / one[0]:.1f} | {one[1]:.2f} | {ten[1]:.2f} | {ten[1] / one[1]:.1f} |",
+            f"| {name} | {ten[0] / single[0]:.1f} | {single[1]:.2f} | {ten[1]:.2f} | {ten[1] / single[1]:.1f} |",
             flush=True,
         )
-    print("\n| effort | houses | CPU s | best | median |\n" + "| --- " * 5 + "|")
-    for effort, seed in itertools.product((1, 2, 4), range(seeds)):
-        model = entry("village-house")
-        kinds = nw.archive(
-            model.model, model.target(), kinds=200, voxel=model.voxel, seed=seed, effort=effort, threads=1
-        )
-        scores = [kind.log_score for kind in kinds]
-        seconds = kinds.result.best.cpu_seconds
-        print(
-            f"| {effort} | {len(kinds)} | {seconds:.1f} | {scores[0]:.1f} | {statistics.median(scores):.1f} |",
-            flush=True,
-        )
+
+
+def houses(seeds: int) -> None:
+    """Make 200 houses of 200 kinds, and print a row for each rule and each effort."""
+    model = entry("village-house")
+    print("| by | effort | houses | CPU s | best | median |\n" + "| --- " * 6 + "|")
+    for by, effort in (("kind", 1), (OF_HOUSES, 1), (OF_HOUSES, 4)):
+        rows = []
+        for seed in range(seeds):
+            kinds = nw.archive(
+                model.model,
+                model.target(),
+                kinds=200,
+                by=by,
+                voxel=model.voxel,
+                seed=seed,
+                effort=effort,
+                threads=1,
+            )
+            scores = [kind.log_score for kind in kinds]
+            rows.append((len(kinds), kinds.result.best.cpu_seconds, scores[0], statistics.median(scores)))
+        number, *rest = (statistics.mean(column) for column in zip(*rows, strict=True))
+        name = by if isinstance(by, str) else f"{len(by)} choices"
+        print(f"| {name} | {effort} | {number:.0f} | {' | '.join(f'{x:.1f}' for x in rest)} |", flush=True)
 
 
 def drawn(name: str, rounds: int) -> Any:
