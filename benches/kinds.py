@@ -201,7 +201,7 @@ def grown(name: str, seed: int, **settings: Any) -> nw.Result:
 
 def spent(result: nw.Result) -> tuple[float, float]:
     """Return the work of a search, in steps of particles, and its CPU seconds."""
-    return sum(step.work for step in result.info.rounds) + result.info.other_work, result.best.cpu_seconds
+    return sum(step.work for step in result.info.rounds) + result.info.other_work, result.cpu_seconds
 
 
 def costs(seeds: int) -> None:
@@ -237,7 +237,7 @@ def houses(seeds: int) -> None:
                 threads=1,
             )
             scores = [kind.log_score for kind in kinds]
-            rows.append((len(kinds), kinds.result.best.cpu_seconds, scores[0], statistics.median(scores)))
+            rows.append((len(kinds), kinds.result.cpu_seconds, scores[0], statistics.median(scores)))
         number, *rest = (statistics.mean(column) for column in zip(*rows, strict=True))
         name = by if isinstance(by, str) else f"{len(by)} choices"
         print(f"| {name} | {effort} | {number:.0f} | {' | '.join(f'{x:.1f}' for x in rest)} |", flush=True)
