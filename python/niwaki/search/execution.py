@@ -109,7 +109,7 @@ class _Runs:
     samples: list[Sample] = field(default_factory=list)
     failed: list[InputError | ModelFault] = field(default_factory=list)
     invalid: tuple[Invalid, ...] = ()
-    spent: float = 0.0
+    spent: tuple[float, float] = (0.0, 0.0)
     interrupted: bool = False
     #: Statistics of the last run, without evidence, which stand for all runs; runs of chains have none.
     info: Info = field(default_factory=Info)
@@ -128,16 +128,20 @@ class _Runs:
             self.info = without_evidence(result.info)
         self._record(result)
         if self.interrupted and self.samples and not any(sample.has_ended for sample in result):
-            self.spent += result.seconds
+            self._spend(result)
             return
         if self.search.polish is not None and not self.interrupted and stage != "done":
             result = self._polish(number, stage, result, watch)
-        self.spent += result.seconds
+        self._spend(result)
         is_whole = getattr(self.search.method, "diverse", None) is not None or self.search.keep == "all"
         samples = list(result.samples) if is_whole else [result.best]
         self.samples.extend(samples)
         if not self.interrupted and stage != "done":
             _store(self.keeper, f"{number}/done", result, samples, self.info)
+
+    def _spend(self, result: Result) -> None:
+        """Add the wall and processor time of a run."""
+        self.spent = self.spent[0] + result.seconds, self.spent[1] + result.cpu_seconds
 
     def result(self) -> Result:
         """The result of all runs together."""
@@ -161,7 +165,7 @@ class _Runs:
             info=self.info,
             interrupted=self.interrupted,
             invalid=self.invalid,
-            seconds=(self.spent, sum(sample.cpu_seconds for sample in self.samples)),
+            seconds=self.spent,
         )
 
     def _run(self, number: int, watch: EngineWatch) -> tuple[str, Result]:

@@ -112,6 +112,11 @@ def test_the_best_is_that_of_the_search_for_the_best_alone_or_better() -> None:
     assert len(several) == 4 and len(set(pairs(several))) > 1
 
 
+def test_several_results_have_the_seconds_of_one_search() -> None:
+    result = chairs(diverse=4)
+    assert (result.seconds, result.cpu_seconds) == (result.best.seconds, result.best.cpu_seconds)
+
+
 def test_the_bits_do_not_depend_on_threads() -> None:
     seen = [chairs(diverse=5, rounds=3, threads=threads) for threads in (1, 2)]
     assert [sample.choices for sample in seen[0]] == [sample.choices for sample in seen[1]]
