@@ -458,9 +458,12 @@ impl<'a> Archive<'a> {
             tried.push(name);
             jobs.push(Job { form, ..job });
         }
-        // Where no turn brings a new niche, second runs of the best niches.
+        // Where no turn brings a new niche, second runs of the best niches; none where every niche counts, however far below the best.
+        let (margin, has_seconds) = (self.improve.margin, few && self.improve.margin.is_some());
         for at in 0..new_searches.saturating_sub(jobs.len()) {
-            let Some((key, niche)) = ranked.get(at % ranked.len().max(1)).filter(|_| few) else { break };
+            let Some((key, niche)) = ranked.get(at % ranked.len().max(1)).filter(|_| has_seconds) else {
+                break;
+            };
             let (niche, hold) = (Some((*key).clone()), niche.entries[0].features.clone());
             jobs.push(Job {
                 number: 0,
@@ -472,19 +475,20 @@ impl<'a> Archive<'a> {
                 form: 0,
             });
         }
-        // Half of the others go to those of the best niches that had the fewest searches, half to the most promising ones: a search
-        // without a gain counts as `margin` nats.
+        // Half of the others, or all where every niche counts, go to those of the best niches that had the fewest searches, the rest to the
+        // most promising ones: a search without a gain counts as `margin` nats.
         let room = GENERATION.saturating_sub(jobs.len());
         let mut neglected: Vec<_> = ranked.iter().copied().take(self.count).collect();
         neglected.sort_by_key(|(_, niche)| niche.searches);
-        neglected.truncate(room / 2);
+        neglected.truncate(if margin.is_some() { room / 2 } else { room });
         let mut promising = ranked;
-        let margin = self.improve.margin.unwrap_or(UNLIMITED);
+        let margin = margin.unwrap_or(UNLIMITED);
         let promise = |niche: &Niche| niche.entries[0].run.log_score - margin * niche.idle as f64;
         promising.sort_by(|a, b| promise(b.1).total_cmp(&promise(a.1)));
         promising.retain(|(key, _)| neglected.iter().all(|(other, _)| other != key));
         for (key, niche) in neglected.into_iter().chain(promising).take(room) {
-            let entry = &niche.entries[niche.searches as usize % if few { niche.entries.len() } else { 1 }];
+            let entry =
+                &niche.entries[niche.searches as usize % if has_seconds { niche.entries.len() } else { 1 }];
             jobs.push(Job {
                 number: 0,
                 niche: Some(key.clone()),
