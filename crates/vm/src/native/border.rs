@@ -87,8 +87,8 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             let differs = if tags.is_power_of_two() {
                 self.b.ins().bxor_imm_u(tag, i64::from(tags.trailing_zeros()))
             } else {
-                let others = self.int((!tags).cast_signed());
-                let bits = self.b.ins().ushr(others, tag);
+                let wrong_tags = self.int((!tags).cast_signed());
+                let bits = self.b.ins().ushr(wrong_tags, tag);
                 self.b.ins().band_imm_u(bits, 1)
             };
             wrong = self.b.ins().bor(wrong, differs);
