@@ -5,7 +5,8 @@
 Each path is a way through the engine that users wait for: a step of a particle, a proposal of a chain, a leapfrog
 step, a shape into the sketches, a choice by a guide, a search by `grow`. The example `counts` of the search repeats a
 path on one thread; two counts with different repeats give the price of a unit, because starting and
-compiling cancel. Machine code of models is off (`NIWAKI_JIT=0`), because a thread of its own writes it.
+compiling cancel. Machine code of models is off (`NIWAKI_JIT=0`), because a thread of its own writes it; paths called
+*compiled* wait for it (`NIWAKI_JIT=1`).
 
 A count that differs from `counts.json` by more than 2 % ends this with 1. A change that
 means to change a count writes the table again (`--write`), and its commit says why. Needs Debian's valgrind; without
@@ -35,6 +36,7 @@ ALLOWED = 0.02
 PATHS = {
     "step hmm": ("particle-step", 1, 3),
     "step branching": ("particle-step", 2, 6),
+    "step branching, compiled": ("particle-step", 2, 6),
     "proposal hmm": ("proposal", 1000, 4000),
     "proposal mixture": ("proposal", 1000, 4000),
     "proposal topics": ("proposal", 1000, 4000),
@@ -50,6 +52,7 @@ PATHS = {
     "choice guided": ("choice", 20, 120),
     "grow spaceship": ("search", 1, 3),
     "grow building": ("search", 1, 2),
+    "grow building, compiled": ("search", 1, 2),
     "grow gnarly-tree": ("search", 1, 2),
 }
 
@@ -65,7 +68,7 @@ def constant(value: object) -> object:
 def write_models() -> None:
     """Writes the models that are grown: core form, target, method."""
     FOLDER.mkdir(parents=True, exist_ok=True)
-    for name in (path.split()[1] for path in PATHS if path.startswith("grow ")):
+    for name in {path.partition(",")[0].split()[1] for path in PATHS if path.startswith("grow ")}:
         gallery_entry = entry(name)
         assert gallery_entry is not None, name
         core = gallery_entry.model.core()
@@ -88,8 +91,9 @@ def build() -> Path:
 
 def counted(program: Path, path: str, repeats: int) -> tuple[int, int]:
     """Instructions of so many repeats of a path, and their units of work."""
-    command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", str(program), path]
-    env = {**os.environ, "NIWAKI_JIT": "0", "RAYON_NUM_THREADS": "1"}
+    name, _, compiled = path.partition(", ")
+    command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", str(program), name]
+    env = {**os.environ, "NIWAKI_JIT": "1" if compiled else "0", "RAYON_NUM_THREADS": "1"}
     done = subprocess.run(
         [*command, str(repeats), str(FOLDER)], env=env, capture_output=True, text=True, check=True
     )
@@ -124,7 +128,7 @@ def main(arguments: Sequence[str]) -> int:
     program = build()
     table = json.loads(TABLE.read_text(encoding="utf-8")) if TABLE.exists() else {}
     differs = []
-    print(f"{'path':22} {'unit':14} {'instructions':>14} {'table':>14} {'change':>8}")
+    print(f"{'path':24} {'unit':14} {'instructions':>14} {'table':>14} {'change':>8}")
     paths = list(options.paths or PATHS)
     # The longest first; a count does not depend on what else runs.
     with ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -132,7 +136,7 @@ def main(arguments: Sequence[str]) -> int:
     for path in paths:
         now, before = round(prices[path]), table.get(path)
         change = float("inf") if before is None else now / before - 1
-        print(f"{path:22} {PATHS[path][0]:14} {now:14,} {before or 0:14,} {change:+8.1%}", flush=True)
+        print(f"{path:24} {PATHS[path][0]:14} {now:14,} {before or 0:14,} {change:+8.1%}", flush=True)
         if abs(change) > ALLOWED:
             differs.append(path)
         table[path] = now

@@ -9,10 +9,10 @@ use std::sync::{Arc, OnceLock};
 const ROUTINES: usize = 3;
 
 /// The number of uses after which the code is judged, and the fewest instructions that a use must run on
-/// average to be worth its call: a call costs about as much as these. A vector that the code makes counts as
+/// average to be worth its call. A vector that the code makes counts as
 /// eight instructions.
 const TRIAL: u32 = 256;
-const WORTH: u64 = 8;
+const WORTH: u64 = 4;
 
 /// Most bytes of machine code that all programs of a process have at a time.
 const MOST_BYTES: usize = 64 << 20;
@@ -156,10 +156,14 @@ impl Entry {
 
     /// Records how many instructions a use ran, until the code is judged.
     #[inline]
-    pub fn note(&self, done: u64) {
-        if self.uses.load(Ordering::Relaxed) >= TRIAL {
-            return;
+    pub fn note(&self, done: impl FnOnce() -> u64) {
+        if self.uses.load(Ordering::Relaxed) < TRIAL {
+            self.judge(done());
         }
+    }
+
+    #[cold]
+    fn judge(&self, done: u64) {
         let all = self.done.fetch_add(done, Ordering::Relaxed) + done;
         if self.uses.fetch_add(1, Ordering::Relaxed) + 1 == TRIAL && all < WORTH * u64::from(TRIAL) {
             self.close();

@@ -63,7 +63,7 @@ pub(crate) type Parts = [Option<Part>; 4];
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[repr(u8)]
 pub(crate) enum Form {
-    List = 16,
+    List = 32,
     Tuple,
     Record,
     Vector2,
@@ -103,34 +103,32 @@ impl Kind {
         !matches!(self, Kind::Range | Kind::Object(_) | Kind::Fresh { .. })
     }
 
-    /// The number of the kind in results of functions that the code calls.
+    /// The number of the kind in results of functions that the code calls. For a plain value it is the tag.
     pub fn mark(self) -> u64 {
         match self {
             Kind::None => 0,
             Kind::Bool => 1,
             Kind::Int => 2,
             Kind::Real => 3,
-            Kind::Unset => 4,
-            Kind::Range => 5,
-            Kind::Opaque => 6,
-            Kind::Fresh { .. } => 7,
+            Kind::Opaque => 4,
+            Kind::Unset => 5,
+            Kind::Range => 13,
+            Kind::Fresh { .. } => 63,
             Kind::Object(form) => form as u64,
         }
     }
 
-    /// The number of words for such a value where the code begins.
-    pub fn words(self) -> usize {
+    /// The tags of values of this kind, a bit for each: see [`Value`].
+    pub fn tags(self) -> u64 {
         match self {
-            Kind::None | Kind::Unset | Kind::Opaque => 0,
-            Kind::Bool | Kind::Int | Kind::Real | Kind::Object(_) => 1,
-            Kind::Range => 3,
-            Kind::Fresh { parts, .. } => parts.iter().flatten().count(),
+            Kind::Opaque => 1 << 4 | 1 << 6,
+            Kind::Object(Form::Tuple) => 1 << 9,
+            Kind::Object(Form::List) => 1 << 10,
+            Kind::Object(Form::Record) => 1 << 12,
+            Kind::Object(Form::Vector2 | Form::Vector3 | Form::Vector4) => 1 << 14,
+            Kind::Object(Form::Other) => 1 << 7 | 1 << 8 | 1 << 11 | 0b1111 << 15,
+            plain => 1 << plain.mark(),
         }
-    }
-
-    /// The number of words for such a value where the code leaves.
-    pub fn words_out(self) -> usize {
-        if self == Kind::Range { 1 } else { self.words() }
     }
 
     /// Whether a value of this kind in the register may count as memory of the run.
@@ -143,6 +141,9 @@ impl Kind {
         }
     }
 }
+
+/// The bits of the tags of values without shared data, and of numbers one larger.
+pub(crate) const PLAIN_TAGS: i64 = 7;
 
 /// Whether the value of a register counts as memory of the run: see [`Value::is_small`].
 pub(crate) fn is_counted<S: Scalar>(reg: Reg, value: &Value<S>) -> bool {

@@ -3,10 +3,29 @@
 
 use super::operand::{FunctionId, Operand};
 use super::register::{Kind, Reg};
+use crate::value::Value;
 use std::any::Any;
 
-/// A function over the words that [`words`] describes. It returns the number of the exit that it took.
-pub(crate) type Start = unsafe extern "C" fn(*mut u64) -> u64;
+/// A function over the first register of the activation, of the loop node above it, and of the machine. It
+/// returns the number of the exit that it took, or [`NOT_ENTERED`].
+pub(crate) type Start = unsafe extern "C" fn(*mut Exchange, *mut Value, *const Value, *mut Value) -> u64;
+
+/// The answer of code that found a register of another kind, and did nothing.
+pub(crate) const NOT_ENTERED: i64 = -1;
+
+/// The numbers that machine code and the machine exchange.
+#[derive(Clone, Copy, Default)]
+#[repr(C)]
+pub(crate) struct Exchange {
+    /// Steps that the code may take; after the run, the steps that are left.
+    pub steps: i64,
+    /// Bytes that the code may charge; after the run, the bytes that are left.
+    pub bytes: i64,
+    /// Scratch registers that the run has used before, from the first one of the function on.
+    pub room: i64,
+    /// The number of instructions that the code ran.
+    pub instructions: u64,
+}
 
 /// Instructions of the processor, and the memory that holds them.
 pub(crate) struct Instructions {
@@ -19,9 +38,9 @@ impl Instructions {
     /// Instructions that take `bytes` bytes from `start` on.
     ///
     /// # Safety
-    /// The instructions exist as long as `owner` does and stay within the words that their routine names. They
-    /// access nothing but these words, and what is lent by constants and registers of the kinds that they were
-    /// written for.
+    /// The instructions exist as long as `owner` does. They access nothing but the numbers of the exchange, the
+    /// registers that their routine names, and what is lent by constants and by registers whose kinds they have
+    /// tested.
     #[allow(unsafe_code)]
     pub unsafe fn new(start: Start, bytes: usize, owner: Box<dyn Any + Send + Sync>) -> Instructions {
         Instructions { start, bytes, _owner: owner }
@@ -30,22 +49,16 @@ impl Instructions {
 
 /// Machine code for one combination of kinds.
 pub(crate) struct Routine {
-    /// Registers that the code reads where it begins, and their kinds there.
-    pub inputs: Vec<Input>,
-    /// Constants that are not numbers: the function and the index of each.
-    pub constants: Vec<(FunctionId, u16)>,
-    /// Other registers that the code may write: they must hold no shared value.
-    pub overwritten: Vec<Reg>,
-    /// The number of overwritten registers that belong to the activation: these come first.
-    pub overwritten_nodes: usize,
-    /// One past the last overwritten register that belongs to the machine.
+    /// Registers that the code reads where it begins, and the kinds that it tests there.
+    pub inputs: Vec<(Reg, Kind)>,
+    /// One past the last register of the machine that the code accesses.
     pub scratch_end: usize,
     /// The places where the code may leave.
     pub exits: Vec<Exit>,
     /// Whether the code writes registers of the activation.
     pub writes_node: bool,
-    /// The number of words that the code exchanges with the machine.
-    pub words: usize,
+    /// Whether the code takes steps or charges memory.
+    pub counts: bool,
     /// The instructions.
     pub code: Instructions,
 }
@@ -54,15 +67,6 @@ impl std::fmt::Debug for Routine {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "Routine({} bytes, {:?})", self.bytes(), self.inputs)
     }
-}
-
-/// A register that machine code reads where it begins.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Input {
-    pub reg: Reg,
-    pub kind: Kind,
-    /// The register's first word.
-    pub word: usize,
 }
 
 /// A place where machine code leaves.
@@ -76,10 +80,8 @@ pub(crate) struct Exit {
     pub base: u32,
     /// The instruction at which the interpreter continues.
     pub pc: u32,
-    /// The registers that have changed, in the order of their words.
-    pub registers: Vec<(Reg, Kind)>,
-    /// Whether a changed register holds a shared value.
-    pub has_objects: bool,
+    /// Whether the code has put a shared value into a register of the machine.
+    pub has_shared: bool,
 }
 
 /// A call of a pure function in progress.
@@ -101,34 +103,22 @@ impl Routine {
         self.code.bytes
     }
 
-    /// Runs the code and returns the exit that it took.
+    /// Runs the code and returns the exit that it took; `None` if a register has another kind.
     ///
-    /// # Panics
-    /// There are fewer words than [`Routine::words`].
+    /// # Safety
+    /// The registers of the activation, of the loop node above it, and [`Routine::scratch_end`] registers of the
+    /// machine are at these places, and nobody else accesses them meanwhile.
     #[inline]
     #[allow(unsafe_code)]
-    pub fn run(&self, words: &mut [u64]) -> &Exit {
-        assert!(words.len() >= self.words);
-        // SAFETY: the code stays within these words. The addresses among them point to values of the kinds that
-        // the code was written for, because `enter` put them there, and nobody changes these values meanwhile.
-        let exit = unsafe { (self.code.start)(words.as_mut_ptr()) };
-        &self.exits[exit as usize]
+    pub unsafe fn run(
+        &self,
+        exchange: &mut Exchange,
+        node: *mut Value,
+        outer: *const Value,
+        scratch: *mut Value,
+    ) -> Option<&Exit> {
+        // SAFETY: the caller lends all that the code accesses.
+        let exit = unsafe { (self.code.start)(exchange, node, outer, scratch) };
+        self.exits.get(exit as usize)
     }
-}
-
-/// The words that machine code and the machine exchange.
-pub(crate) mod words {
-    /// Steps that the code may take; after the run, the steps that are left.
-    pub const STEPS: usize = 0;
-    /// The number of instructions that the code ran.
-    pub const INSTRUCTIONS: usize = 1;
-    /// Scratch registers that the run has used before, from the first one of the function on.
-    pub const ROOM: usize = 2;
-    /// Bytes that the code may charge; after the run, the bytes that are left.
-    pub const BYTES: usize = 3;
-    /// Addresses of constants, at most [`MOST_CONSTANTS`].
-    pub const CONSTANTS: usize = 4;
-    pub const MOST_CONSTANTS: usize = 32;
-    /// Registers: their contents where the code begins, and where it leaves.
-    pub const REGISTERS: usize = CONSTANTS + MOST_CONSTANTS;
 }

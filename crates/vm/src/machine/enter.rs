@@ -1,17 +1,16 @@
-//! The entry into machine code: registers go in, and changed registers come back.
+//! The entry into machine code.
 
 use super::registers::Registers;
 use super::state::State;
 use super::workspace::{Machine, PureCall};
 use crate::code::entries::Entry;
-use crate::code::register::{FreshForm, Kind, Part, Reg, is_counted};
-use crate::code::routine::{Exit, Input, Routine, words};
+use crate::code::register::Reg;
+use crate::code::routine::{Exchange, Exit, Routine};
 use crate::code::{FunctionId, Mode, Program};
 use crate::native;
-use crate::value::{Range, Value};
+use crate::value::Value;
 use niwaki_math::Scalar;
 use std::any::Any;
-use std::sync::Arc;
 
 /// The place where the interpreter continues after machine code.
 pub(super) struct Resumption {
@@ -34,40 +33,83 @@ impl<S: Scalar> Machine<'_, S> {
         entry: &Entry,
         writes_plainly: bool,
     ) -> Option<Resumption> {
-        if !writes_plainly && entry.routines().any(|routine| routine.writes_node) {
-            return None;
-        }
-        for routine in entry.routines() {
-            if self.load_inputs(state, r, routine) {
-                let [steps, bytes] = [words::STEPS, words::BYTES].map(|at| self.words[at]);
-                let exit = routine.run(&mut self.words);
-                state.steps += steps - self.words[words::STEPS];
-                state.charged += (bytes - self.words[words::BYTES]) as usize;
-                let instructions = self.words[words::INSTRUCTIONS];
-                entry.note(instructions + (bytes - self.words[words::BYTES]) / 8);
-                self.store_results(state, r, exit);
+        for routine in entry.routines().filter(|routine| writes_plainly || !routine.writes_node) {
+            let before = if routine.counts { self.allowance(state, r) } else { Exchange::default() };
+            let mut after = before;
+            if let Some(exit) = self.run_code(state, r, routine, &mut after) {
+                if routine.counts {
+                    state.steps += (before.steps - after.steps).cast_unsigned();
+                    state.charged += (before.bytes - after.bytes) as usize;
+                }
+                entry.note(|| after.instructions + (before.bytes - after.bytes).cast_unsigned() / 8);
+                self.holds_shared |= exit.has_shared;
+                for call in &exit.calls {
+                    self.pure.push(PureCall {
+                        caller: call.caller,
+                        pc: call.back as usize,
+                        scratch: r.scratch + call.base as usize,
+                        to: call.to,
+                        as_future: false,
+                    });
+                }
                 return Some(Resumption {
                     function: exit.function,
                     scratch: r.scratch + exit.base as usize,
                     pc: exit.pc as usize,
-                    instructions,
+                    instructions: after.instructions,
                 });
             }
         }
         if (writes_plainly || r.f.mode == Mode::Pure) && entry.is_due() {
-            let program: &dyn Any = self.program;
-            if let Some(program) = program.downcast_ref::<Program>() {
-                native::write(entry, program, function, &|reg| {
-                    let value: &dyn Any = self.content(state, r, reg)?;
-                    value.downcast_ref::<Value>()
-                });
-            }
+            self.request_code(state, r, function, entry);
         }
         None
     }
 
-    /// The content of a register; `None` for a register that the machine has not reserved so far.
+    /// The steps, bytes and registers that code may use.
+    fn allowance(&self, state: &State<S>, r: Registers<'_, S>) -> Exchange {
+        Exchange {
+            steps: state.alarm.saturating_sub(state.steps).min(i64::MAX.cast_unsigned()).cast_signed(),
+            bytes: state.ceiling.saturating_sub(state.bytes()) as i64,
+            room: self.high.saturating_sub(r.scratch) as i64,
+            instructions: 0,
+        }
+    }
+
+    /// Runs a routine. `None` if the registers do not have the kinds that it was written for.
     #[inline]
+    #[allow(unsafe_code)]
+    fn run_code<'a>(
+        &mut self,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        routine: &'a Routine,
+        exchange: &mut Exchange,
+    ) -> Option<&'a Exit> {
+        let end = r.scratch + routine.scratch_end;
+        if self.scratch.len() < end {
+            self.scratch.resize(end, Value::None);
+        }
+        let registers = state.registers.as_mut_ptr();
+        let (node, outer) = (registers.wrapping_add(r.base), registers.wrapping_add(r.outer));
+        let scratch = self.scratch.as_mut_ptr().wrapping_add(r.scratch);
+        // SAFETY: routines are written for programs of `f64` alone. The verifier has found all registers of the
+        // function below the numbers that an activation, and the loop node above it, have in the state.
+        unsafe { routine.run(exchange, node.cast(), outer.cast(), scratch.cast()) }
+    }
+
+    #[cold]
+    fn request_code(&self, state: &State<S>, r: Registers<'_, S>, function: FunctionId, entry: &Entry) {
+        let program: &dyn Any = self.program;
+        if let Some(program) = program.downcast_ref::<Program>() {
+            native::write(entry, program, function, &|reg| {
+                let value: &dyn Any = self.content(state, r, reg)?;
+                value.downcast_ref::<Value>()
+            });
+        }
+    }
+
+    /// The content of a register; `None` for a register that the machine has not reserved so far.
     fn content<'a>(&'a self, state: &'a State<S>, r: Registers<'_, S>, reg: Reg) -> Option<&'a Value<S>> {
         match reg {
             Reg::Node(i) => state.registers.get(r.base + usize::from(i)),
@@ -75,138 +117,4 @@ impl<S: Scalar> Machine<'_, S> {
             Reg::Scratch(i) => self.scratch.get(r.scratch + i as usize),
         }
     }
-
-    /// Writes the inputs of the code to the words. Returns `false` if a register does not have the kind that
-    /// the code was written for.
-    fn load_inputs(&mut self, state: &State<S>, r: Registers<'_, S>, routine: &Routine) -> bool {
-        if self.words.len() < routine.words {
-            self.words.resize(routine.words, 0);
-        }
-        let mut words = std::mem::take(&mut self.words);
-        let fits = self.fill(state, r, routine, &mut words);
-        self.words = words;
-        fits
-    }
-
-    fn fill(&self, state: &State<S>, r: Registers<'_, S>, routine: &Routine, words: &mut [u64]) -> bool {
-        let address = |value: &Value<S>| std::ptr::from_ref(value) as u64;
-        for &Input { reg, kind, word: at } in &routine.inputs {
-            let Some(value) = self.content(state, r, reg) else { return false };
-            match (value, kind) {
-                (Value::Real(x), Kind::Real) => words[at] = x.value().to_bits(),
-                (Value::Int(n), Kind::Int) => words[at] = n.cast_unsigned(),
-                (Value::Bool(b), Kind::Bool) => words[at] = u64::from(*b),
-                (Value::Range(range), Kind::Range) => {
-                    let [first, step] = [range.start, range.step].map(i64::cast_unsigned);
-                    words[at..at + 3].copy_from_slice(&[address(value), first, step]);
-                }
-                (value, Kind::Object(_)) if Kind::of(value) == kind => words[at] = address(value),
-                (value, kind) if kind.words() == 0 && Kind::of(value) == kind => {}
-                _ => return false,
-            }
-        }
-        let is_free = |reg: &Reg| self.content(state, r, *reg).is_none_or(|value| !is_counted(*reg, value));
-        let end = self.scratch.len().min(r.scratch + routine.scratch_end);
-        let (nodes, scratch) = routine.overwritten.split_at(routine.overwritten_nodes);
-        // Nearly always all scratch registers are free, which is found sooner by testing a whole row.
-        let are_free =
-            self.scratch[r.scratch..end].iter().all(Value::is_plain) || scratch.iter().all(is_free);
-        if !(are_free && nodes.iter().all(is_free)) {
-            return false;
-        }
-        for (k, (id, i)) in routine.constants.iter().enumerate() {
-            words[words::CONSTANTS + k] = address(&self.program.function(*id).constants[usize::from(*i)]);
-        }
-        words[words::STEPS] = state.alarm.saturating_sub(state.steps).min(i64::MAX.cast_unsigned());
-        words[words::BYTES] = state.ceiling.saturating_sub(state.bytes()) as u64;
-        words[words::ROOM] = self.high.saturating_sub(r.scratch) as u64;
-        true
-    }
-
-    /// Writes the registers that the code has changed, and turns its calls of pure functions into calls of the
-    /// machine.
-    fn store_results(&mut self, state: &mut State<S>, r: Registers<'_, S>, exit: &Exit) {
-        if exit.has_objects {
-            // All objects are copied before any register is written, because they may be in these registers.
-            self.buffer.clear();
-            let mut at = words::REGISTERS;
-            for (_, kind) in &exit.registers {
-                if matches!(kind, Kind::Object(_) | Kind::Range) {
-                    self.buffer.push(shared(self.words[at]));
-                }
-                at += kind.words_out();
-            }
-        }
-        let mut objects = self.buffer.drain(..);
-        let mut fresh: Vec<(u16, Value<S>)> = Vec::new();
-        let mut at = words::REGISTERS;
-        for (reg, kind) in &exit.registers {
-            let register = match *reg {
-                Reg::Node(i) | Reg::Outer(i) => &mut state.registers[r.base + usize::from(i)],
-                Reg::Scratch(i) => &mut self.scratch[r.scratch + i as usize],
-            };
-            let word = self.words[at];
-            match kind {
-                Kind::Real => register.store_real(S::from_f64(f64::from_bits(word))),
-                Kind::Int => register.store_int(word.cast_signed()),
-                Kind::Bool => register.store(Value::Bool(word != 0)),
-                Kind::None | Kind::Opaque => register.store(Value::None),
-                Kind::Unset => register.store(Value::Unset),
-                Kind::Range | Kind::Object(_) => {
-                    self.holds_shared = true;
-                    register.store(objects.next().unwrap_or_default());
-                }
-                Kind::Fresh { form, parts, number } => {
-                    let known =
-                        fresh.iter().find(|(other, _)| other == number).map(|(_, value)| value.clone());
-                    let value = known.unwrap_or_else(|| {
-                        let value = build(*form, parts, &self.words[at..]);
-                        fresh.push((*number, value.clone()));
-                        value
-                    });
-                    self.holds_shared = true;
-                    register.store(value);
-                }
-            }
-            at += kind.words_out();
-        }
-        for call in &exit.calls {
-            self.pure.push(PureCall {
-                caller: call.caller,
-                pc: call.back as usize,
-                scratch: r.scratch + call.base as usize,
-                to: call.to,
-                as_future: false,
-            });
-        }
-    }
-}
-
-/// A vector, tuple or range of the numbers in these words.
-fn build<S: Scalar>(form: FreshForm, parts: &[Option<Part>], words: &[u64]) -> Value<S> {
-    let numbers = parts.iter().flatten().zip(words).map(|(part, word)| match part {
-        Part::Bool => Value::Bool(*word != 0),
-        Part::Int => Value::Int(word.cast_signed()),
-        Part::Real => Value::real(f64::from_bits(*word)),
-    });
-    match form {
-        FreshForm::Tuple => Value::tuple(numbers.collect()),
-        FreshForm::Range => {
-            let [start, stop, step] = [0, 1, 2].map(|k| words[k].cast_signed());
-            Range::new(start, stop, step).map_or(Value::None, |range| Value::Range(Arc::new(range)))
-        }
-        FreshForm::Vector => {
-            let reals = words.iter().take(parts.iter().flatten().count());
-            let reals: Vec<S> = reals.map(|word| S::from_f64(f64::from_bits(*word))).collect();
-            Value::vector(&reals)
-        }
-    }
-}
-
-/// Copies the value at an address that the code returned.
-#[allow(unsafe_code)]
-fn shared<S: Scalar>(address: u64) -> Value<S> {
-    // SAFETY: the code returns only addresses that it received, or addresses of parts of the values there.
-    // Nothing has been written since.
-    unsafe { (*(address as *const Value<S>)).clone() }
 }

@@ -87,8 +87,6 @@ pub struct Machine<'p, S: Scalar = f64> {
     pub(super) holds_shared: bool,
     pub(super) pure: Vec<PureCall>,
     pub(super) buffer: Vec<Value<S>>,
-    /// The words that machine code and the machine exchange.
-    pub(super) words: Vec<u64>,
     pub(super) shapes: Vec<Shape>,
     pub(super) cache: DistCache<S>,
     pub(super) logs: LastLog<S>,
@@ -110,7 +108,6 @@ impl<'p, S: Scalar> Machine<'p, S> {
             holds_shared: false,
             pure: Vec::new(),
             buffer: Vec::new(),
-            words: Vec::new(),
             shapes: Vec::new(),
             cache: DistCache::holding(limits.bytes / 16),
             logs: LastLog::default(),

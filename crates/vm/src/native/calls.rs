@@ -7,9 +7,10 @@
 #![allow(unsafe_code)] // The code that `write` makes passes addresses.
 
 use crate::builtins::builtin;
-use crate::code::register::Kind;
+use crate::code::register::{FreshForm, Kind, Part, Parts, Reg};
 use crate::value::{Range, Value, index, iter_len};
 use niwaki_math::Scalar;
+use std::sync::Arc;
 
 /// The mark of a call without an answer.
 pub(super) const NO_ANSWER: u64 = 255;
@@ -95,6 +96,108 @@ pub(super) unsafe extern "C" fn call(id: u64, args: *const Value, n: u64, out: *
         Ok(value) if value.is_plain() => store_word(&value, out),
         _ => NO_ANSWER,
     }
+}
+
+/// The number of words for a value of this kind among those of [`store_shared`]: a value has two.
+pub(super) fn words(kind: Kind) -> usize {
+    match kind {
+        Kind::Fresh { parts, .. } => parts.iter().flatten().count().max(2),
+        _ => 2,
+    }
+}
+
+/// A vector, tuple or range of the numbers in these words.
+fn build(form: FreshForm, parts: Parts, words: &[u64]) -> Value {
+    let numbers = parts.iter().flatten().zip(words).map(|(part, word)| match part {
+        Part::Bool => Value::Bool(*word != 0),
+        Part::Int => Value::Int(word.cast_signed()),
+        Part::Real => Value::Real(f64::from_bits(*word)),
+    });
+    match form {
+        FreshForm::Tuple => Value::tuple(numbers.collect()),
+        FreshForm::Range => {
+            let [start, stop, step] = [0, 1, 2].map(|k| words[k].cast_signed());
+            Range::new(start, stop, step).map_or(Value::None, |range| Value::Range(Arc::new(range)))
+        }
+        FreshForm::Vector => {
+            let n = parts.iter().flatten().count();
+            let reals = [0, 1, 2, 3].map(|k| words.get(k).map_or(0.0, |word| f64::from_bits(*word)));
+            Value::vector(&reals[..n])
+        }
+    }
+}
+
+/// Stores shared values in registers: `words` has the address of each value, or the parts of a value that the
+/// code has made. A register of a plain kind becomes empty. All values are copied before a register is written,
+/// because they may be in these registers.
+///
+/// # Safety
+/// `list` points to `n` registers with their kinds, of which `node` and `scratch` have the first ones, and nobody
+/// else accesses these. `words` has room for [`words`] of each kind, and the addresses point to values.
+pub(super) unsafe extern "C" fn store_shared(
+    list: *const (Reg, Kind),
+    n: u64,
+    words_at: *mut u64,
+    node: *mut Value,
+    scratch: *mut Value,
+) {
+    // SAFETY: as above.
+    let list = unsafe { std::slice::from_raw_parts(list, n as usize) };
+    let mut at = words_at;
+    for (k, (_, kind)) in list.iter().enumerate() {
+        // SAFETY: as above; each value takes the place of its own words.
+        unsafe {
+            let value = match *kind {
+                Kind::Fresh { form, parts, number } => match same_before(list, k, number) {
+                    Some(skipped) => (*words_at.add(skipped).cast::<Value>()).clone(),
+                    None => build(form, parts, std::slice::from_raw_parts(at, words(*kind))),
+                },
+                kind if kind.is_plain() => Value::None,
+                _ => (*(*at as *const Value)).clone(),
+            };
+            at.cast::<Value>().write(value);
+            at = at.add(words(*kind));
+        }
+    }
+    at = words_at;
+    for (reg, kind) in list {
+        // SAFETY: as above; the words hold the values now.
+        unsafe {
+            let register = match *reg {
+                Reg::Node(i) | Reg::Outer(i) => node.add(i.into()),
+                Reg::Scratch(i) => scratch.add(i as usize),
+            };
+            *register = at.cast::<Value>().read();
+            at = at.add(words(*kind));
+        }
+    }
+}
+
+/// The words before those of an earlier register that holds the same value.
+fn same_before(list: &[(Reg, Kind)], k: usize, number: u16) -> Option<usize> {
+    let is_same = |(_, kind): &(Reg, Kind)| matches!(kind, Kind::Fresh { number: n, .. } if *n == number);
+    let first = list[..k].iter().position(is_same)?;
+    Some(list[..first].iter().map(|(_, kind)| words(*kind)).sum())
+}
+
+/// Drops the small values of the machine's registers among these, and returns whether they hold no shared data
+/// then.
+///
+/// # Safety
+/// `list` points to `n` registers, of which `scratch` has the first one; nobody else accesses these.
+pub(super) unsafe extern "C" fn drop_small(list: *const (Reg, Kind), n: u64, scratch: *mut Value) -> u64 {
+    // SAFETY: as above.
+    let list = unsafe { std::slice::from_raw_parts(list, n as usize) };
+    let are_free = list.iter().all(|(reg, _)| {
+        let Reg::Scratch(i) = reg else { return true };
+        // SAFETY: as above.
+        let register = unsafe { &mut *scratch.add(*i as usize) };
+        if register.is_small() {
+            *register = Value::None;
+        }
+        register.is_plain()
+    });
+    u64::from(are_free)
 }
 
 macro_rules! functions {

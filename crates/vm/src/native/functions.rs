@@ -2,7 +2,7 @@
 
 use super::calls;
 use super::typed::{Number, Typed};
-use super::write::{ARGUMENTS, Cursor, PLAIN, Progress, Writer};
+use super::write::{ARGUMENTS, Cursor, Progress, Writer};
 use crate::builtins::builtin;
 use crate::code::register::{FreshForm, Kind};
 use crate::code::{Args, Operand};
@@ -138,22 +138,11 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         inputs: &[Typed],
         kind: Kind,
     ) -> Option<Typed> {
-        if inputs.len() > ARGUMENTS as usize {
+        let is_passed = |typed: &Typed| typed.number().is_some() || matches!(typed, Typed::None);
+        if inputs.len() > ARGUMENTS as usize || !inputs.iter().all(is_passed) {
             return None;
         }
-        let args = self.arguments();
-        for (k, typed) in inputs.iter().enumerate() {
-            let at = 16 * k as i32;
-            match typed {
-                Typed::Bool(x) | Typed::Int(x) | Typed::Real(x) => {
-                    self.b.ins().store(PLAIN, *x, args, at + 8);
-                }
-                Typed::None => {}
-                _ => return None,
-            }
-            let mark = self.int(typed.kind().mark().cast_signed());
-            self.b.ins().store(PLAIN, mark, args, at);
-        }
+        let args = self.pass(inputs);
         let (id, n, out) = (self.int(i64::from(id)), self.int(inputs.len() as i64), self.answer());
         let mark = self.call_address(calls::call as *const u8, &[id, args, n, out], I64);
         self.read_answer(cursor, pc, mark, kind)

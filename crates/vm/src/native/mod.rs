@@ -6,9 +6,9 @@
 //! a pure function, or where a run continues after a choice, and it goes as far as it can:
 //!
 //! ```text
-//! interpreter --- a loop jumps back for the 20,000th time -> compile for these kinds,     
+//! interpreter --- a loop jumps back for the 20,000th time -> compile for these kinds,
 //!     ^                                                            | while the run continues
-//!     |            registers, steps, place                         v
+//!     |            steps, bytes, place                             v
 //!     +------------------------------------------------------ machine code
 //!        an instruction that it has no code for, a fault, a number that does not fit, the limits
 //! ```
@@ -23,6 +23,7 @@
 //!
 //! * `entries`: the places where code may begin; `background`: the thread that writes code; `routine`: the
 //!   writing of one routine;
+//! * `border`: the tests of kinds where code begins, and the stores where it leaves;
 //! * `write`: one piece of code for each instruction and each combination of kinds that reaches it;
 //!   `registers`: the model's registers during the writing; `flow`: which registers are live;
 //! * `operate`: the instructions; `numbers`, `vectors`, `functions`: arithmetic, vectors and tuples, built-in
@@ -33,6 +34,7 @@
 //! Versioning" (ECOOP 2015), with all versions written at once.
 
 mod background;
+mod border;
 mod calls;
 mod entries;
 mod flow;

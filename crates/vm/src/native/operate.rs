@@ -4,13 +4,13 @@ use super::calls::{self, NO_ANSWER};
 use super::typed::{Number, Typed, TypedOperand};
 use super::write::{Cursor, PLAIN, Progress, Writer};
 use crate::code::register::{Form, FreshForm, Kind};
-use crate::code::routine::Call;
-use crate::code::routine::words;
+use crate::code::routine::{Call, Exchange};
 use crate::code::{Args, Binary, FunctionId, Op, Operand};
 use crate::value::{Value as Model, index};
 use niwaki_native::codegen::ir::condcodes::IntCC;
 use niwaki_native::codegen::ir::types::{F64, I64};
 use niwaki_native::codegen::ir::{InstBuilder, Value};
+use std::mem::offset_of;
 
 /// The most nested calls of pure functions that a routine follows.
 const MAX_DEPTH: usize = 6;
@@ -344,7 +344,8 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         }
         let base = cursor.base + u32::from(f.scratch_registers);
         let end = base + u32::from(callee.scratch_registers);
-        let room = self.word(words::ROOM);
+        let room = offset_of!(Exchange, room) as i32;
+        let room = self.b.ins().load(I64, PLAIN, self.exchange, room);
         let deeper = self.b.ins().icmp_imm_s(IntCC::SignedLessThan, room, i64::from(end));
         self.leave_if(cursor, pc, deeper);
         self.take_step(cursor, pc);

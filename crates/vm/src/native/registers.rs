@@ -1,13 +1,12 @@
 //! The registers of the model as variables of Cranelift's builder.
 
 use super::typed::{Number, Typed, TypedOperand};
-use super::write::{Cursor, Writer};
+use super::write::{Cursor, PLAIN, Writer};
 use crate::code::register::{Kind, Part, Reg};
-use crate::code::routine::words;
 use crate::code::{Operand, Place};
 use crate::value::Value as Model;
 use niwaki_native::codegen::ir::types::{F64, I64};
-use niwaki_native::codegen::ir::{AbiParam, InstBuilder, Signature, Type, Value};
+use niwaki_native::codegen::ir::{AbiParam, Inst, InstBuilder, Signature, Type, Value};
 use niwaki_native::frontend::Variable;
 
 /// The first numbers of the variables for parts: whole parts, then real parts.
@@ -108,15 +107,9 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             Model::Real(x) => Typed::Real(self.b.ins().f64const(*x)),
             other => {
                 let constant = (cursor.function, o.index() as u16);
-                let known = self.constants.iter().position(|known| *known == constant);
-                let at = known.unwrap_or(self.constants.len());
-                if at >= words::MOST_CONSTANTS {
-                    return None;
-                }
-                if known.is_none() {
-                    self.constants.push(constant);
-                }
-                let object = self.word(words::CONSTANTS + at);
+                let copy = self.constants.entry(constant).or_insert_with(|| Box::new(other.clone()));
+                let object = std::ptr::from_ref::<Model>(copy) as i64;
+                let object = self.int(object);
                 match (other, Kind::of(other)) {
                     (Model::Range(range), _) => {
                         Typed::Range { object, first: self.int(range.start), step: self.int(range.step) }
@@ -150,18 +143,23 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
 
 /// Calls of functions outside of the machine code.
 impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
-    /// Calls the function at an address.
+    /// Calls the function at an address for an answer.
     pub(super) fn call_address(&mut self, function: *const u8, args: &[Value], answer: Type) -> Value {
+        let call = self.call_outside(function, args, Some(answer));
+        self.b.inst_results(call)[0]
+    }
+
+    /// Calls the function at an address.
+    pub(super) fn call_outside(&mut self, function: *const u8, args: &[Value], answer: Option<Type>) -> Inst {
         let mut signature = Signature::new(self.convention);
         for value in args {
             let ty = self.b.func.dfg.value_type(*value);
             signature.params.push(AbiParam::new(ty));
         }
-        signature.returns.push(AbiParam::new(answer));
+        signature.returns.extend(answer.map(AbiParam::new));
         let signature = self.b.import_signature(signature);
         let address = self.int(function as i64);
-        let call = self.b.ins().call_indirect(signature, address, args);
-        self.b.inst_results(call)[0]
+        self.b.ins().call_indirect(signature, address, args)
     }
 
     /// The address of the word for the answers of called functions.
@@ -169,9 +167,18 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         self.b.ins().stack_addr(I64, self.answer, 0)
     }
 
-    /// The address of the array for arguments.
-    pub(super) fn arguments(&mut self) -> Value {
-        self.b.ins().stack_addr(I64, self.arguments, 0)
+    /// Writes plain values to the array for arguments, and returns its address.
+    pub(super) fn pass(&mut self, values: &[Typed]) -> Value {
+        let args = self.b.ins().stack_addr(I64, self.arguments, 0);
+        for (k, typed) in values.iter().enumerate() {
+            let at = 16 * k as i32;
+            if let Typed::Bool(x) | Typed::Int(x) | Typed::Real(x) = typed {
+                self.b.ins().store(PLAIN, *x, args, at + 8);
+            }
+            let mark = self.int(typed.kind().mark().cast_signed());
+            self.b.ins().store(PLAIN, mark, args, at);
+        }
+        args
     }
 
     /// The address and the length of a name, which exists as long as the code.

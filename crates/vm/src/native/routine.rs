@@ -1,7 +1,7 @@
 //! Writes machine code for one combination of kinds.
 
 use super::write::{Contents, Writer};
-use crate::code::register::Reg;
+use crate::code::register::{Kind, Reg};
 use crate::code::routine::{Instructions, Routine, Start};
 use crate::code::{FunctionId, Program};
 use niwaki_native::codegen::ir::types::I64;
@@ -23,7 +23,7 @@ pub(super) fn routine<'v>(
     let mut module = niwaki_native::module(Effort::Plain)?;
     let mut context = module.make_context();
     let mut signature = Signature::new(module.target_config().default_call_conv);
-    signature.params.push(AbiParam::new(I64));
+    signature.params.extend([AbiParam::new(I64); 4]);
     signature.returns.push(AbiParam::new(I64));
     let convention = signature.call_conv;
     context.func.signature = signature;
@@ -31,11 +31,16 @@ pub(super) fn routine<'v>(
     let mut builder_context = FunctionBuilderContext::new();
     let b = FunctionBuilder::new(&mut context.func, &mut builder_context);
     let mut writer = Writer::new(program, b, convention);
-    let mut inputs = writer.write_start(function, pc, contents)?;
+    writer.write_start(function, pc, contents)?;
     writer.write_pieces();
     let exits = writer.write_exits();
-    let Writer { mut b, constants, written, read, names, divides, words, .. } = writer;
-    inputs.retain(|input| read.contains(&input.reg) || written.contains(&input.reg));
+    let is_used = |reg: &Reg| writer.read.contains(reg) || writer.written.contains(reg);
+    let inputs: Vec<(Reg, Kind)> =
+        writer.inputs.iter().map(|(reg, kind)| (*reg, *kind)).filter(|(reg, _)| is_used(reg)).collect();
+    let overwritten: Vec<Reg> =
+        writer.written.iter().filter(|reg| !writer.inputs.contains_key(reg)).copied().collect();
+    writer.write_guards(&inputs, &overwritten);
+    let Writer { mut b, constants, written, names, lists, counts, divides, .. } = writer;
     b.seal_all_blocks();
     b.finalize(module.target_config());
     if divides {
@@ -47,30 +52,19 @@ pub(super) fn routine<'v>(
     module.define_function(id, &mut context)?;
     let bytes = context.compiled_code().map_or(0, |code| code.code_info().total_size as usize);
     let memory = Memory::finish(module)?;
-    let is_input = |reg: &Reg| inputs.iter().any(|input| input.reg == *reg);
+    let registers_of_machine =
+        inputs.iter().map(|(reg, _)| reg).chain(&written).filter_map(|reg| match reg {
+            Reg::Scratch(i) => Some(*i as usize + 1),
+            Reg::Node(_) | Reg::Outer(_) => None,
+        });
+    let scratch_end = registers_of_machine.max().unwrap_or(0);
     let writes_node = written.iter().any(|reg| matches!(reg, Reg::Node(_)));
-    let overwritten: Vec<Reg> = written.into_iter().filter(|reg| !is_input(reg)).collect();
-    let overwritten_nodes = overwritten.iter().filter(|reg| matches!(reg, Reg::Node(_))).count();
-    let scratch_end = match overwritten.last() {
-        Some(Reg::Scratch(last)) => *last as usize + 1,
-        _ => 0,
-    };
-    // SAFETY: the code was written with this signature, and it names no other texts. It stays within `words`
-    // words, and reads its inputs by their kinds.
+    // SAFETY: the code was written with this signature, and it names no other memory than its owner has. It tests
+    // the kinds of its inputs before it reads them.
     #[allow(unsafe_code)]
     let code = unsafe {
         let start = std::mem::transmute::<*const u8, Start>(memory.address(id));
-        Instructions::new(start, bytes, Box::new((memory, names)))
+        Instructions::new(start, bytes, Box::new((memory, names, lists, constants)))
     };
-    Ok(Routine {
-        inputs,
-        constants,
-        overwritten,
-        overwritten_nodes,
-        scratch_end,
-        exits,
-        writes_node,
-        words,
-        code,
-    })
+    Ok(Routine { inputs, scratch_end, exits, writes_node, counts, code })
 }

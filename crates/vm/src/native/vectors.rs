@@ -6,22 +6,26 @@ use super::typed::{Number, Typed};
 use super::write::{Cursor, PLAIN, Writer};
 use crate::code::Binary;
 use crate::code::register::{Form, FreshForm};
-use crate::value::Value as Model;
+use crate::value::{Value as Model, Vector};
 use niwaki_native::codegen::ir::condcodes::FloatCC;
 use niwaki_native::codegen::ir::types::{F64, I64};
 use niwaki_native::codegen::ir::{InstBuilder, Value};
 use std::sync::LazyLock;
 
-/// The offset of the components of a vector from the address in its value.
-static COMPONENTS: LazyLock<i32> = LazyLock::new(|| {
+/// The offset of shared data from the address in its value.
+pub(super) static DATA: LazyLock<i32> = LazyLock::new(|| {
     let value: Model = Model::vector(&[1.0, 2.0, 3.0]);
     let Model::Vector(v) = &value else { return 0 };
-    let first = v.components().as_ptr() as u64;
+    let data = std::sync::Arc::as_ptr(v) as u64;
     // SAFETY: a value is two words, and the second one of a vector is an address.
     #[allow(unsafe_code)]
     let address = unsafe { std::ptr::from_ref(&value).cast::<u64>().add(1).read() };
-    i32::try_from(first.wrapping_sub(address)).unwrap_or(0)
+    i32::try_from(data.wrapping_sub(address)).unwrap_or(0)
 });
+
+/// The offsets of the components of a vector, and of their number, a byte.
+const COMPONENTS: i32 = Vector::<f64>::COMPONENTS as i32;
+pub(super) const LENGTH: i32 = Vector::<f64>::LENGTH as i32;
 
 impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
     /// The components of a vector.
@@ -38,7 +42,9 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
                     _ => return None,
                 };
                 let body = self.b.ins().load(I64, PLAIN, object, 8);
-                Some((0..n).map(|k| self.b.ins().load(F64, PLAIN, body, *COMPONENTS + 8 * k)).collect())
+                Some(
+                    (0..n).map(|k| self.b.ins().load(F64, PLAIN, body, *DATA + COMPONENTS + 8 * k)).collect(),
+                )
             }
             _ => None,
         }

@@ -9,13 +9,12 @@
 use super::flow::{Flow, registers};
 use super::typed::{Number, Typed};
 use crate::code::register::{FreshForm, Kind, Reg, is_counted};
-use crate::code::routine::words;
-use crate::code::routine::{Call, Exit, Input};
+use crate::code::routine::{Call, Exit};
 use crate::code::{Function, FunctionId, Operand, Place, Program};
 use crate::value::{Range, Value as Model};
 use niwaki_native::CompileResult;
 use niwaki_native::codegen::ir::condcodes::IntCC;
-use niwaki_native::codegen::ir::types::{F64, I64};
+use niwaki_native::codegen::ir::types::I64;
 use niwaki_native::codegen::ir::{
     Block, InstBuilder, MemFlagsData, StackSlot, StackSlotData, StackSlotKind, Value,
 };
@@ -30,7 +29,7 @@ pub(super) type Contents<'a, 'v> = &'a dyn Fn(Reg) -> Option<&'v Model>;
 /// The most pieces of a routine; the interpreter runs the rest.
 const MAX_PIECES: usize = 160;
 
-/// The most registers that a routine exchanges with the machine.
+/// The most registers that may be inputs of a routine.
 const MAX_REGISTERS: usize = 200;
 
 /// The number of values in the array for arguments of called functions.
@@ -58,7 +57,7 @@ pub(super) struct Cursor<'v> {
     pub(super) kinds: BTreeMap<Reg, Kind>,
     pub(super) samples: HashMap<Reg, &'v Model>,
     /// The number of instructions since the last count.
-    instructions: i64,
+    pub(super) instructions: i64,
     /// The number of vectors, tuples and ranges that the code has made so far.
     fresh_count: u16,
 }
@@ -74,11 +73,12 @@ pub(super) enum Progress {
 }
 
 /// An exit whose code is not written yet.
-struct PendingExit {
-    block: Block,
-    exit: Exit,
-    values: Vec<(Reg, Kind, Vec<Value>)>,
-    instructions: i64,
+pub(super) struct PendingExit {
+    pub block: Block,
+    pub exit: Exit,
+    /// The kinds of the registers there.
+    pub registers: Vec<(Reg, Kind)>,
+    pub instructions: i64,
 }
 
 /// A routine during its writing.
@@ -89,28 +89,37 @@ pub(super) struct Writer<'p, 'v, 'b> {
     flows: HashMap<FunctionId, Flow>,
     pieces: HashMap<Key, Block>,
     pending_pieces: Vec<(Block, usize, Cursor<'v>)>,
-    pending_exits: Vec<PendingExit>,
+    pub(super) pending_exits: Vec<PendingExit>,
+    /// The exit before the current instruction, if there is one.
+    pub(super) exit_here: Option<(usize, Block)>,
     pub(super) variables: HashMap<(Reg, u8), Variable>,
-    /// Registers that held shared data where the code begins.
-    shared_at_start: BTreeSet<Reg>,
-    pub(super) constants: Vec<(FunctionId, u16)>,
+    /// The kinds of registers where the code begins.
+    pub(super) inputs: BTreeMap<Reg, Kind>,
+    /// Copies of constants that are not numbers, which exist as long as the code.
+    pub(super) constants: HashMap<(FunctionId, u16), Box<Model>>,
     pub(super) written: BTreeSet<Reg>,
     /// Registers that an instruction reads.
     pub(super) read: BTreeSet<Reg>,
     pub(super) names: Vec<Box<str>>,
+    /// Lists of registers for functions that the code calls.
+    pub(super) lists: Vec<Box<[(Reg, Kind)]>>,
+    /// Whether the code takes steps or charges memory.
+    pub(super) counts: bool,
     /// Whether the code divides whole numbers.
     pub(super) divides: bool,
-    pub(super) words: usize,
-    exchange: Value,
+    /// The block that tests and loads the inputs, and the block after it.
+    pub(super) guards: Block,
+    pub(super) begin: Block,
+    /// The parameters of the code: see [`Start`](crate::code::routine::Start).
+    pub(super) exchange: Value,
+    pub(super) node: Value,
+    pub(super) outer: Value,
+    pub(super) scratch: Value,
     pub(super) answer: StackSlot,
     pub(super) arguments: StackSlot,
-    steps: Variable,
-    bytes: Variable,
-    instructions: Variable,
-}
-
-fn offset(word: usize) -> i32 {
-    i32::try_from(8 * word).expect("there are few words")
+    pub(super) steps: Variable,
+    pub(super) bytes: Variable,
+    pub(super) instructions: Variable,
 }
 
 impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
@@ -119,6 +128,13 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
         let (answer, arguments) =
             (b.create_sized_stack_slot(slot(1)), b.create_sized_stack_slot(slot(2 * ARGUMENTS)));
         let [steps, bytes, instructions] = [(); 3].map(|()| b.declare_var(I64));
+        let [start, guards, begin] = [(); 3].map(|()| b.create_block());
+        b.switch_to_block(start);
+        b.append_block_params_for_function_params(start);
+        let &[exchange, node, outer, scratch] = b.block_params(start) else {
+            unreachable!("`Start` has four parameters")
+        };
+        b.ins().jump(guards, &[]);
         Writer {
             program,
             b,
@@ -127,15 +143,22 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
             pieces: HashMap::new(),
             pending_pieces: vec![],
             pending_exits: vec![],
+            exit_here: None,
             variables: HashMap::new(),
-            shared_at_start: BTreeSet::new(),
-            constants: vec![],
+            inputs: BTreeMap::new(),
+            constants: HashMap::new(),
             written: BTreeSet::new(),
             read: BTreeSet::new(),
             names: vec![],
+            lists: vec![],
+            counts: false,
             divides: false,
-            words: 0,
-            exchange: Value::from_u32(0),
+            guards,
+            begin,
+            exchange,
+            node,
+            outer,
+            scratch,
             answer,
             arguments,
             steps,
@@ -152,22 +175,15 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
         self.flows.entry(id).or_insert_with(|| Flow::of(self.program.function(id)))
     }
 
-    /// Writes the code that reads all inputs, and the jump to the first piece. Returns the inputs.
+    /// Finds the inputs, and writes the jump to the first piece.
     pub(super) fn write_start(
         &mut self,
         id: FunctionId,
         pc: usize,
         contents: Contents<'_, 'v>,
-    ) -> CompileResult<Vec<Input>> {
+    ) -> CompileResult<()> {
         let f = self.program.function(id);
-        let block = self.b.create_block();
-        self.b.switch_to_block(block);
-        self.b.append_block_params_for_function_params(block);
-        self.exchange = self.b.block_params(block)[0];
-        let steps = self.word(words::STEPS);
-        self.b.def_var(self.steps, steps);
-        let bytes = self.word(words::BYTES);
-        self.b.def_var(self.bytes, bytes);
+        self.b.switch_to_block(self.begin);
         let zero = self.int(0);
         self.b.def_var(self.instructions, zero);
 
@@ -193,41 +209,20 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
             instructions: 0,
             fresh_count: 0,
         };
-        let mut known = vec![];
-        let mut at = words::REGISTERS;
         for reg in inputs {
             let Some(value) = contents(reg) else { return Err("a register does not exist".into()) };
             let kind = Kind::of(value);
             if !kind.is_plain() {
-                if kind.is_counted(reg) {
-                    self.shared_at_start.insert(reg);
-                }
                 cursor.samples.insert(reg, value);
             }
-            let typed = match kind {
-                Kind::None => Typed::None,
-                Kind::Unset => Typed::Unset,
-                Kind::Opaque => Typed::Opaque,
-                Kind::Bool => Typed::Bool(self.word(at)),
-                Kind::Int => Typed::Int(self.word(at)),
-                Kind::Real => Typed::Real(self.b.ins().load(F64, PLAIN, self.exchange, offset(at))),
-                Kind::Range => {
-                    Typed::Range { object: self.word(at), first: self.word(at + 1), step: self.word(at + 2) }
-                }
-                Kind::Object(form) => Typed::Object(self.word(at), form),
-                Kind::Fresh { .. } => return Err("only machine code makes such values".into()),
-            };
-            self.define(reg, typed);
             cursor.kinds.insert(reg, kind);
-            known.push(Input { reg, kind, word: at });
-            at += kind.words();
         }
-        if known.len() > MAX_REGISTERS {
+        if cursor.kinds.len() > MAX_REGISTERS {
             return Err("too many registers".into());
         }
-        self.words = at;
+        self.inputs = cursor.kinds.clone();
         self.enter_piece(&mut cursor, pc);
-        Ok(known)
+        Ok(())
     }
 
     /// Writes all pieces that other pieces lead to.
@@ -240,6 +235,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
                     self.enter_piece(&mut cursor, pc);
                     break;
                 }
+                self.exit_here = None;
                 match self.instruction(&mut cursor, pc) {
                     Progress::Next => {
                         cursor.instructions += 1;
@@ -256,44 +252,13 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
         }
     }
 
-    /// Writes the code of all exits.
-    pub(super) fn write_exits(&mut self) -> Vec<Exit> {
-        let mut exits = vec![];
-        for PendingExit { block, mut exit, values, instructions } in std::mem::take(&mut self.pending_exits) {
-            self.b.switch_to_block(block);
-            let mut at = words::REGISTERS;
-            for (reg, kind, values) in values {
-                if !self.written.contains(&reg) {
-                    continue;
-                }
-                for value in values {
-                    self.b.ins().store(PLAIN, value, self.exchange, offset(at));
-                    at += 1;
-                }
-                exit.has_objects |= matches!(kind, Kind::Object(_) | Kind::Range);
-                exit.registers.push((reg, kind));
-            }
-            self.words = self.words.max(at);
-            let steps = self.b.use_var(self.steps);
-            self.b.ins().store(PLAIN, steps, self.exchange, offset(words::STEPS));
-            let bytes = self.b.use_var(self.bytes);
-            self.b.ins().store(PLAIN, bytes, self.exchange, offset(words::BYTES));
-            let before = self.b.use_var(self.instructions);
-            let instructions = self.b.ins().iadd_imm_s(before, instructions);
-            self.b.ins().store(PLAIN, instructions, self.exchange, offset(words::INSTRUCTIONS));
-            let number = self.int(exits.len() as i64);
-            self.b.ins().return_(&[number]);
-            exits.push(exit);
-        }
-        exits
-    }
-
     /// Jumps to the piece that begins at an instruction with the current kinds.
     pub(super) fn enter_piece(&mut self, cursor: &mut Cursor<'v>, pc: usize) {
         let before = self.b.use_var(self.instructions);
         let instructions = self.b.ins().iadd_imm_s(before, cursor.instructions);
         self.b.def_var(self.instructions, instructions);
         cursor.instructions = 0;
+        self.exit_here = None;
         self.forget_dead(cursor, pc);
         cursor.renumber();
         let key = Key {
@@ -313,19 +278,21 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
                 block
             }
         };
+        self.exit_here = None;
         self.b.ins().jump(block, &[]);
     }
 
     /// Forgets registers that nobody reads again. A register stays if it holds shared data, or did so where the
     /// code began: this data counts while the register holds it.
-    fn forget_dead(&mut self, cursor: &mut Cursor<'v>, pc: usize) {
+    pub(super) fn forget_dead(&mut self, cursor: &mut Cursor<'v>, pc: usize) {
         let mut places: Vec<(FunctionId, u32, usize)> =
             cursor.calls.iter().map(|call| (call.caller, call.base, call.back as usize)).collect();
         places.push((cursor.function, cursor.base, pc));
         let innermost_end = cursor.base + u32::from(self.f(cursor).scratch_registers);
         let mut dead = vec![];
         for (reg, kind) in &cursor.kinds {
-            if kind.is_counted(*reg) || self.shared_at_start.contains(reg) {
+            let was_counted = self.inputs.get(reg).is_some_and(|kind| kind.is_counted(*reg));
+            if kind.is_counted(*reg) || was_counted {
                 continue;
             }
             let (id, at, o) = match *reg {
@@ -352,37 +319,6 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
         }
     }
 
-    /// An exit before an instruction.
-    pub(super) fn exit(&mut self, cursor: &Cursor<'v>, pc: usize) -> Block {
-        let block = self.b.create_block();
-        self.b.set_cold_block(block);
-        let mut values = vec![];
-        let mut cursor = cursor.clone();
-        self.forget_dead(&mut cursor, pc);
-        for (reg, kind) in &cursor.kinds {
-            // A register that is only read keeps its content.
-            if !matches!(reg, Reg::Outer(_)) && *kind != Kind::Opaque {
-                let parts = match self.typed(*reg, *kind) {
-                    Typed::None | Typed::Unset | Typed::Opaque => vec![],
-                    Typed::Bool(x) | Typed::Int(x) | Typed::Real(x) | Typed::Object(x, _) => vec![x],
-                    Typed::Range { object, .. } => vec![object],
-                    Typed::Fresh { parts, .. } => parts.iter().flatten().map(|part| part.value()).collect(),
-                };
-                values.push((*reg, *kind, parts));
-            }
-        }
-        let exit = Exit {
-            calls: cursor.calls.clone(),
-            function: cursor.function,
-            base: cursor.base,
-            pc: pc as u32,
-            registers: vec![],
-            has_objects: false,
-        };
-        self.pending_exits.push(PendingExit { block, exit, values, instructions: cursor.instructions });
-        block
-    }
-
     /// Leaves before the instruction if a condition holds.
     pub(super) fn leave_if(&mut self, cursor: &Cursor<'v>, pc: usize, condition: Value) {
         let (exit, on) = (self.exit(cursor, pc), self.b.create_block());
@@ -401,6 +337,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
 
     /// Takes a step, or leaves before the instruction if no step is left.
     pub(super) fn take_step(&mut self, cursor: &Cursor<'v>, pc: usize) {
+        self.counts = true;
         let left = self.b.use_var(self.steps);
         let none = self.b.ins().icmp_imm_s(IntCC::SignedLessThanOrEqual, left, 0);
         self.leave_if(cursor, pc, none);
@@ -411,6 +348,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
     /// Charges the memory that an instruction needs, or leaves before the instruction. This is the last check
     /// of an instruction.
     pub(super) fn charge(&mut self, cursor: &Cursor<'v>, pc: usize, bytes: usize) {
+        self.counts = true;
         let left = self.b.use_var(self.bytes);
         let none = self.b.ins().icmp_imm_s(IntCC::SignedLessThan, left, bytes as i64);
         self.leave_if(cursor, pc, none);
@@ -437,11 +375,6 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
         parts.iter_mut().zip(numbers).for_each(|(part, number)| *part = Some(*number));
         cursor.fresh_count += 1;
         Typed::Fresh { form, parts, number: cursor.fresh_count }
-    }
-
-    /// Reads a word that the machine stored.
-    pub(super) fn word(&mut self, at: usize) -> Value {
-        self.b.ins().load(I64, PLAIN, self.exchange, offset(at))
     }
 
     pub(super) fn int(&mut self, n: i64) -> Value {

@@ -331,6 +331,10 @@ pub struct Vector<S: Scalar = f64> {
 }
 
 impl<S: Scalar> Vector<S> {
+    /// The places of the components and of their number, a byte, for machine code.
+    pub(crate) const COMPONENTS: usize = std::mem::offset_of!(Self, components);
+    pub(crate) const LENGTH: usize = std::mem::offset_of!(Self, len);
+
     /// A vector of up to four components; further components are cut off.
     pub fn new(components: &[S]) -> Vector<S> {
         let mut padded = [S::from_f64(0.0); 4];

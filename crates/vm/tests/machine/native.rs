@@ -10,7 +10,8 @@ use niwaki_vm::code::Program;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::machine::{Limits, Machine};
 use niwaki_vm::passes::compile;
-use niwaki_vm::value::repr;
+use niwaki_vm::value::{Range, Value, repr};
+use std::sync::Arc;
 
 /// The result of a run, or the fault with its stack; the steps of the run, and the bytes that it is charged.
 fn outcome(program: &Program, limits: Limits) -> (String, u64, usize) {
@@ -160,6 +161,61 @@ fn fields_of_records_and_fresh_values_agree() {
         outcome.starts_with("(12.0, vec(0.015625, 0.03125), vec(0.015625, 0.03125), (12.0, 5), [7]"),
         "{outcome}"
     );
+}
+
+/// Code for one kind is refused for every other kind, be it by the tag or by the length of a vector.
+#[test]
+fn code_runs_only_for_its_kinds() {
+    let values = [
+        "none",
+        "true",
+        "2",
+        "0.5",
+        "\"a\"",
+        "(tuple 1 (list 2))",
+        "(list 1 2)",
+        "(record 0 1 2)",
+        "(range 1 9 3)",
+        "(vec 3.0 4.0)",
+        "(vec 1.0 2.0 2.0)",
+        "(vec 1.0 1.0 1.0 1.0)",
+    ];
+    for (a, b) in values.iter().flat_map(|a| values.iter().map(move |b| (a, b))) {
+        let size = if [a, b].iter().all(|value| value.starts_with("(vec")) { "(norm $x)" } else { "0" };
+        let text = format!(
+            "(module (class 0 \"P\" (\"x\" \"y\") namedtuple)
+             (fn \"f\" (params $x) (set $n 0) (set $y none) (while (lt $n 3) (body (set $n (add $n 1)) (set $z $y)
+                (set $s {size}) (set $y $x))) (return (tuple $x $y $z $s)))
+             (fn \"m\" (params) (set $a (call \"f\" {a})) (set $b (call \"f\" {b})) (set $c (call \"f\" {a}))
+                (return (tuple $a $b $c))) (entry \"m\"))"
+        );
+        agree(&text, 12);
+    }
+}
+
+/// Shared values change places in registers of the machine and of an activation, and numbers replace them; then
+/// nobody holds them any more.
+#[test]
+fn overwritten_values_are_dropped() {
+    for choice in ["", "(set $u (sample (dist uniform 0.0 1.0)))"] {
+        let text = format!(
+            "(module (fn \"m\" (params $r) {choice} (set $x $r) (set $y (list 1 $r)) (set $z (vec 1.0 2.0)) (set $k 0)
+                (while (lt $k 9) (body (set $k (add $k 1)) (set $z $x) (set $x $y) (set $y $z) (set $w (tuple $k $k)) (set $v $w)
+                    (if (eq $k 6) (then (set $z \"a\") (set $w $z))) (if (gt $k 6) (then (set $y 0.5)))))
+                (return (tuple $x $y $z $w $v))) (entry \"m\"))"
+        );
+        let program = compile::<f64>(&parse(&text).unwrap(), vec![]).unwrap();
+        let range = Arc::new(Range::new(0, 9, 2).unwrap());
+        let [interpreted, compiled] = [0, 1].map(|visits| {
+            let program = program.clone().with_machine_code_after(visits);
+            let mut machine = Machine::new(&program, Limits::default());
+            let mut state = machine.start(&[Value::Range(range.clone())], true).unwrap();
+            machine.finish(&mut state, &mut Halves).unwrap();
+            repr(&state.result()).unwrap().to_string()
+        });
+        assert_eq!(interpreted, compiled);
+        assert_eq!(Arc::strong_count(&range), 1);
+    }
 }
 
 /// Writes random programs: numbers, loops, branches, calls, elements; sometimes a fault.
