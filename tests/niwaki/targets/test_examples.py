@@ -52,7 +52,6 @@ def test_sines_of_another_processor_give_the_same_bytes(name: str, monkeypatch: 
     assert again.faces.tobytes() == target.faces.tobytes()
 
 
-
 def test_written_targets_read_back(tmp_path: Path) -> None:
     written = targets.write_all(tmp_path)
     assert sorted(path.name for path in written) == sorted(
