@@ -4,7 +4,7 @@
 #   make demo     grow the gallery's models; writes pictures and files to out/
 #   make test     the engine's tests, then the package's
 #   make lint     formatting, clippy, ruff, the order of imports, mypy and the stub of the engine, warnings as errors
-#   make counts   instructions of a unit of work on eighteen paths, beside the committed table (needs valgrind; WRITE=1:
+#   make counts   instructions of a unit of work on twenty paths, beside the committed table (needs valgrind; WRITE=1:
 #                 write the table again)
 #   make recorded  hashes of what every method, kernel, gallery model and command gives, beside the committed table: before
 #                 and after a change that must not change bits (half a minute; WRITE=1: write the table again)
