@@ -40,8 +40,7 @@ class Row(plain.PlainRun):
     """A run in plain Python with its choices from a row of numbers."""
 
     def __init__(self, row: Sequence[float], places: dict[str, int], seed: int) -> None:
-        self.given: dict[str, Any] = {}
-        super().__init__(seed, self.given)
+        super().__init__(seed, {})
         self.row, self.places = row, places
 
     def sample(self, dist: Any, words: Sequence[str] | None = None) -> Any:
@@ -49,7 +48,7 @@ class Row(plain.PlainRun):
         pending = self.pending
         place = self.places.get(address := self.address("sample"))
         if place is not None:
-            self.given[address] = quantile(dist, NormalDist().cdf(self.row[place]))
+            self.values[address] = quantile(dist, NormalDist().cdf(self.row[place]))
         self.pending = pending
         return super().sample(dist, words)
 
@@ -89,17 +88,16 @@ def choices(model: Any, row: Sequence[float], places: dict[str, int], seed: int)
 
 def cma_me(search: Any, grid: dict[str, tuple[Any, ...]], seed: int) -> Iterator[Evaluated]:
     """Search by CMA-ME without an end. Its CPU seconds are those of the library and of the engine's scores alone."""
-    shown = (nw.run_python(search.model, seed=number).choices for number in range(SHOWN))
     places: dict[str, int] = {}
-    for run in shown:
-        for address in run:
+    for number in range(SHOWN):
+        for address in nw.run_python(search.model, seed=number).choices:
             places.setdefault(address, len(places))
     # The last cell of each dimension is for all values that the grid lacks.
     sizes = [len(values) + 1 for values in grid.values()]
     # The library compiles its functions at the first use.
-    unused = scheduler(sizes, len(places), seed)
-    number = len(unused.ask())
-    unused.tell(np.zeros(number), np.zeros((number, len(sizes))))
+    rehearsal = scheduler(sizes, len(places), seed)
+    number = len(rehearsal.ask())
+    rehearsal.tell(np.zeros(number), np.zeros((number, len(sizes))))
     emitters, count, seconds = scheduler(sizes, len(places), seed), 0, 0.0
     while True:
         start = time.process_time()

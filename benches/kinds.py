@@ -1,6 +1,6 @@
 """The coverage of an archive of kinds, beside independent searches, choices held by hand, and CMA-ME.
 
-    .venv/bin/python benches/kinds.py [--seeds 3] [--rounds 15] [--most 100] [--models chair,castle] [--sheets FOLDER]
+    .venv/bin/python benches/kinds.py [--seeds 3] [--rounds 15] [--models chair,castle] [--sheets FOLDER]
     .venv/bin/python benches/kinds.py --costs [--seeds 3]
 
 A few choices of each gallery model tell its results apart. Four ways lead to many designs:
@@ -69,6 +69,8 @@ OF_HOUSES = (
         for choice in ("beside", "house/categorical", "house/has_chimney")
     ),
 )
+#: Most results of an archive.
+MOST = 100
 #: What the ways have in common.
 EQUAL = ("evaluations", "CPU")
 #: The log score that counts as nothing.
@@ -82,7 +84,6 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--seeds", type=int, default=3)
     parser.add_argument("--rounds", type=int, default=15)
-    parser.add_argument("--most", type=int, default=100, help="the most results of an archive")
     parser.add_argument("--models", default=",".join(MODELS))
     parser.add_argument("--costs", action="store_true")
     parser.add_argument("--sheets", type=Path)
@@ -96,9 +97,7 @@ def main() -> int:
         print("CMA-ME is left out: ribs is not installed", file=sys.stderr)
     print("| model | way | equal | coverage | QD | best | evaluations | CPU s |\n" + "| --- " * 8 + "|")
     for name in filter(None, options.models.split(",")):
-        rows = [
-            measured(name, MODELS[name], seed, options.rounds, options.most) for seed in range(options.seeds)
-        ]
+        rows = [measured(name, MODELS[name], seed, options.rounds) for seed in range(options.seeds)]
         for way, equal in rows[0]:
             columns = zip(*(row[way, equal] for row in rows), strict=True)
             covered, quality, best, count, seconds = (statistics.mean(column) for column in columns)
@@ -111,11 +110,11 @@ def main() -> int:
     return 0
 
 
-def measured(name: str, grid: Grid, seed: int, rounds: int, most: int) -> dict[tuple[str, str], Row]:
+def measured(name: str, grid: Grid, seed: int, rounds: int) -> dict[tuple[str, str], Row]:
     """Measure each way with the evaluations, and with the CPU seconds, of an archive."""
     # The archive is not told which combinations count: others are possible, and it keeps them, too.
     archive = grown(
-        name, 1000 * seed, method=nw.improve(rounds=rounds, diverse=most, by=list(grid), margin=None)
+        name, 1000 * seed, method=nw.improve(rounds=rounds, diverse=MOST, by=list(grid), margin=None)
     )
     limits = spent(archive)
     runs = [(sample.choices, sample.log_score) for sample in archive]

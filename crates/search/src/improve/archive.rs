@@ -5,7 +5,7 @@
 //!    It is fixed then. What tells niches apart follows from it, or from the names that a user gave (`niche`).
 //! 3. Generations of short searches, side by side. Some turn one choice of a good run so that a niche comes that was never met, and
 //!    grow what it brings; others improve the run of a promising niche with its choices held; where there are fewer niches
-//!    than results, others start from a population of their own. They end after three times the work of the first search.
+//!    than results, and a result may not be far below the best, others start from a population of their own. They end after three times the work of the first search.
 //! 4. The results are chosen by niche, then by look (`choose`, `look`).
 //!
 //! A generation is planned from the archive alone, and its searches are counted, so the bits do not depend on threads. The archive is
@@ -459,11 +459,10 @@ impl<'a> Archive<'a> {
             jobs.push(Job { form, ..job });
         }
         // Where no turn brings a new niche, second runs of the best niches; none where every niche counts, however far below the best.
-        let (margin, has_seconds) = (self.improve.margin, few && self.improve.margin.is_some());
-        for at in 0..new_searches.saturating_sub(jobs.len()) {
-            let Some((key, niche)) = ranked.get(at % ranked.len().max(1)).filter(|_| has_seconds) else {
-                break;
-            };
+        let margin = self.improve.margin;
+        let has_seconds = few && margin.is_some();
+        let seconds = if has_seconds { new_searches.saturating_sub(jobs.len()) } else { 0 };
+        for (key, niche) in ranked.iter().cycle().take(seconds) {
             let (niche, hold) = (Some((*key).clone()), niche.entries[0].features.clone());
             jobs.push(Job {
                 number: 0,
@@ -487,8 +486,8 @@ impl<'a> Archive<'a> {
         promising.sort_by(|a, b| promise(b.1).total_cmp(&promise(a.1)));
         promising.retain(|(key, _)| neglected.iter().all(|(other, _)| other != key));
         for (key, niche) in neglected.into_iter().chain(promising).take(room) {
-            let entry =
-                &niche.entries[niche.searches as usize % if has_seconds { niche.entries.len() } else { 1 }];
+            let runs = if has_seconds { niche.entries.len() } else { 1 };
+            let entry = &niche.entries[niche.searches as usize % runs];
             jobs.push(Job {
                 number: 0,
                 niche: Some(key.clone()),

@@ -72,6 +72,18 @@ pub(crate) enum Form {
     Other,
 }
 
+impl Form {
+    /// The number of components of a vector; `None` for other forms.
+    pub fn components(self) -> Option<u8> {
+        match self {
+            Form::Vector2 => Some(2),
+            Form::Vector3 => Some(3),
+            Form::Vector4 => Some(4),
+            Form::List | Form::Tuple | Form::Record | Form::Other => None,
+        }
+    }
+}
+
 impl Kind {
     /// The kind of a value.
     #[inline]
@@ -103,7 +115,7 @@ impl Kind {
         !matches!(self, Kind::Range | Kind::Object(_) | Kind::Fresh { .. })
     }
 
-    /// The number of the kind in results of functions that the code calls. For a plain value it is the tag.
+    /// The number of the kind in results of functions that the code calls. For a plain value and a range it is the tag.
     pub fn mark(self) -> u64 {
         match self {
             Kind::None => 0,
@@ -127,7 +139,7 @@ impl Kind {
             Kind::Object(Form::Record) => 1 << 12,
             Kind::Object(Form::Vector2 | Form::Vector3 | Form::Vector4) => 1 << 14,
             Kind::Object(Form::Other) => 1 << 7 | 1 << 8 | 1 << 11 | 0b1111 << 15,
-            plain => 1 << plain.mark(),
+            tagged => 1 << tagged.mark(),
         }
     }
 
@@ -136,7 +148,8 @@ impl Kind {
         let in_scratch = matches!(reg, Reg::Scratch(_));
         match self {
             Kind::Fresh { .. } => !in_scratch,
-            Kind::Range | Kind::Object(Form::Vector2 | Form::Vector3 | Form::Vector4) => !in_scratch,
+            Kind::Range => !in_scratch,
+            Kind::Object(form) if form.components().is_some() => !in_scratch,
             other => !other.is_plain(),
         }
     }

@@ -10,7 +10,7 @@ use super::calls;
 use super::typed::Typed;
 use super::vectors::{DATA, LENGTH};
 use super::write::{Cursor, PLAIN, PendingExit, Writer};
-use crate::code::register::{Form, Kind, PLAIN_TAGS, Reg};
+use crate::code::register::{Kind, PLAIN_TAGS, Reg};
 use crate::code::routine::{Exchange, Exit, NOT_ENTERED};
 use crate::value::Range;
 use niwaki_native::codegen::ir::types::{F64, I64};
@@ -96,10 +96,12 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         self.leave_for(refused, wrong);
         wrong = self.int(0);
         for (reg, kind) in inputs {
-            if let Kind::Object(form @ (Form::Vector2 | Form::Vector3 | Form::Vector4)) = kind {
+            if let Kind::Object(form) = kind
+                && let Some(components) = form.components()
+            {
                 let body = self.load(*reg, NUMBER);
                 let n = self.b.ins().uload8(I64, PLAIN, body, *DATA + LENGTH);
-                let differs = self.b.ins().bxor_imm_u(n, *form as i64 - Form::Vector2 as i64 + 2);
+                let differs = self.b.ins().bxor_imm_u(n, i64::from(components));
                 wrong = self.b.ins().bor(wrong, differs);
             }
             let typed = self.loaded(*reg, *kind);
@@ -155,7 +157,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         self.b.ins().jump(on, &[]);
         self.b.set_cold_block(drop);
         self.b.switch_to_block(drop);
-        let registers = self.keep(overwritten.iter().map(|reg| (*reg, Kind::None)).collect());
+        let registers = self.keep(scratch.iter().map(|reg| (**reg, Kind::None)).collect());
         let args = [&registers[..], &[self.scratch]].concat();
         let are_free = self.call_address(calls::drop_small as *const u8, &args, I64);
         self.b.ins().brif(are_free, on, &[], refused, &[]);
@@ -221,6 +223,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
                 Typed::Object(object, _) | Typed::Range { object, .. } => words.push(object),
                 _ => {}
             }
+            // What fills the room up is never read.
             words.resize(before + calls::words(*kind), self.exchange);
         }
         let slot = StackSlotData::new(StackSlotKind::ExplicitSlot, 8 * words.len() as u32, 3);

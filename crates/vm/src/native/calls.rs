@@ -180,11 +180,10 @@ fn same_before(list: &[(Reg, Kind)], k: usize, number: u16) -> Option<usize> {
     Some(list[..first].iter().map(|(_, kind)| words(*kind)).sum())
 }
 
-/// Drops the small values of the machine's registers among these, and returns whether they hold no shared data
-/// then.
+/// Drops the small values of some of the machine's registers, and returns whether these hold no shared data then.
 ///
 /// # Safety
-/// `list` points to `n` registers, of which `scratch` has the first one; nobody else accesses these.
+/// `list` points to `n` registers of the machine, from `scratch` on; nobody else accesses these.
 pub(super) unsafe extern "C" fn drop_small(list: *const (Reg, Kind), n: u64, scratch: *mut Value) -> u64 {
     // SAFETY: as above.
     let list = unsafe { std::slice::from_raw_parts(list, n as usize) };

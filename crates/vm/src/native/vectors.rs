@@ -5,7 +5,7 @@ use super::calls;
 use super::typed::{Number, Typed};
 use super::write::{Cursor, PLAIN, Writer};
 use crate::code::Binary;
-use crate::code::register::{Form, FreshForm};
+use crate::code::register::FreshForm;
 use crate::value::{Value as Model, Vector};
 use niwaki_native::codegen::ir::condcodes::FloatCC;
 use niwaki_native::codegen::ir::types::{F64, I64};
@@ -35,12 +35,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
                 parts.iter().flatten().map(|part| real(*part)).collect()
             }
             Typed::Object(object, form) => {
-                let n = match form {
-                    Form::Vector2 => 2,
-                    Form::Vector3 => 3,
-                    Form::Vector4 => 4,
-                    _ => return None,
-                };
+                let n = i32::from(form.components()?);
                 let body = self.b.ins().load(I64, PLAIN, object, 8);
                 Some(
                     (0..n).map(|k| self.b.ins().load(F64, PLAIN, body, *DATA + COMPONENTS + 8 * k)).collect(),
@@ -64,9 +59,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         match typed {
             Typed::Fresh { form: FreshForm::Range, .. } => None,
             Typed::Fresh { parts, .. } => Some(parts.iter().flatten().count()),
-            Typed::Object(_, Form::Vector2) => Some(2),
-            Typed::Object(_, Form::Vector3) => Some(3),
-            Typed::Object(_, Form::Vector4) => Some(4),
+            Typed::Object(_, form) => form.components().map(usize::from),
             _ => None,
         }
     }
