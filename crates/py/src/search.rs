@@ -233,7 +233,7 @@ impl PyTask {
 
     /// Searches by a method, given as its text: the finished runs, whether the search was interrupted, and a dict of
     /// further results of the method. ``attached`` are the users' proposals and guides that kernels name by number; ``start`` is the
-    /// run from which a chain of whole runs starts; a search for the best resumes from its ``checkpoint``.
+    /// run from which a chain of whole runs or a search for the best starts; the latter resumes from its ``checkpoint``.
     #[pyo3(signature = (method, seed, *, attached=Vec::new(), start=None, threads=None, watch=None, checkpoint=None))]
     #[expect(clippy::too_many_arguments, reason = "the settings of a search")]
     fn search<'py>(

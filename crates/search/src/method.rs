@@ -363,7 +363,7 @@ pub struct Inputs<'a> {
     pub seed: u64,
     /// The users' proposals and the guides that the method's kernels name by number.
     pub attached: &'a [Attached],
-    /// The first run of a chain of whole runs.
+    /// The first run of a chain of whole runs, or of a search for the best.
     pub start: Option<&'a [Entry]>,
     /// The outputs of a search for the best while it runs.
     pub outputs: Outputs<'a>,
@@ -575,7 +575,8 @@ impl Method {
             }
             Method::Improve(improve) => {
                 let proposal = proposed(improve.proposal.as_ref(), inputs)?;
-                let (runs, result) = improve.search(task, seed, proposal, inputs.outputs, &mut progress)?;
+                let (runs, result) =
+                    improve.search(task, seed, proposal, inputs.start, inputs.outputs, &mut progress)?;
                 Ok(bare(runs, result.interrupted, Info::Improved(result)))
             }
             Method::Mh(_) | Method::Hmc(_) | Method::Nuts(_) | Method::Vi(_) => {

@@ -302,7 +302,8 @@ class Round(NamedTuple):
     Attributes
     ----------
     step : str
-        The kind of step: "population", "restart", "regrow", "regrow more", "move" or "levels".
+        The kind of step: "population", "start" (a run that was given), "restart", "regrow", "regrow more", "move" or
+        "levels".
     work : int
         The number of particle-steps, of proposals, and of shapes that proposals placed or removed.
     best : float
@@ -354,7 +355,7 @@ class ImproveInfo(Info):
     attempts : tuple of Attempt
         The populations that were tried until one lived.
     rounds : tuple of Round
-        The population that lived, and then each round.
+        The population that lived or the run that was given, and then each round.
     searches : int
         The number of searches for results that differ.
     kinds : tuple of dict
@@ -422,6 +423,8 @@ class ImproveInfo(Info):
             form = "" if attempt is self.attempts[0] else f" ({attempt.form})"
             end = "" if attempt.died_at is None else f", which died at barrier {attempt.died_at}"
             steps.append(f"population of {attempt.particles}{form}{end}")
+        if self.rounds and not steps:
+            steps.append("a run that was given")
         if self.rounds:
             steps[-1] += self._at(0)
         if len(self.rounds) > 1:

@@ -21,7 +21,7 @@ from niwaki.errors.settings import bad
 from niwaki.lang import lookup
 from niwaki.lang.compiled import LOOSEN
 from niwaki.lang.models import Model
-from niwaki.methods import Method, Mh, at_least_one
+from niwaki.methods import Improve, Method, Mh, at_least_one
 from niwaki.once import cached_property
 from niwaki.result import diagnostics
 from niwaki.result.info import EnumerationInfo, Info
@@ -222,25 +222,26 @@ class Result(Sequence[Sample]):
 
     def polish(
         self,
-        method: Mh,
+        method: Mh | Improve,
         *,
         seed: int | None = None,
         threads: int | None = None,
         progress: Watch | None = None,
     ) -> Result:
-        """Continue from the best sample by Markov chains; their `best` is at least as good.
+        """Continue from the best sample by Markov chains, or by rounds of `improve`; their `best` is at least as good.
 
         Parameters
         ----------
         method
-            `niwaki.mh(...)`: the number of proposals, and the kernel.
+            `niwaki.mh(...)`: the number of proposals, and the kernel. Or `niwaki.improve(...)` for one result: its
+            rounds begin from the sample, in place of a population.
         seed, threads, progress
             As for `niwaki.run`; the seed of this search when left out.
 
         Returns
         -------
         Result
-            The result of the chains. Its seconds are those of this search and of the chains together.
+            The result of the chains or rounds. Its seconds are those of this search and of theirs together.
         """
         return self.search.polished(self, method, seed=seed, threads=threads, progress=progress)
 

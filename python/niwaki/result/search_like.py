@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from niwaki import _engine
 from niwaki.lang.models import Model
-from niwaki.methods import Method, Mh
+from niwaki.methods import Improve, Method, Mh
 from niwaki.targets.sketches import Score
 
 if TYPE_CHECKING:
@@ -116,7 +116,7 @@ class SearchLike(Protocol):
     def polished(
         self,
         result: Result,
-        method: Mh,
+        method: Mh | Improve,
         *,
         seed: int | None = None,
         threads: int | None = None,

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from niwaki.errors.settings import THREADS, bad, is_whole
-from niwaki.methods import Mh
+from niwaki.methods import Improve, Mh
 
 
 def check_seed(seed: int) -> int:
@@ -24,11 +24,13 @@ def check_values(name: str, values: Any) -> None:
         raise bad(name, values, "values of choices by address", '`{"width": 2.0}`, or `result.best.choices`')
 
 
-def check_polish(method: Any) -> None:
-    """Refuse a method that is not Metropolis-Hastings."""
-    if not isinstance(method, Mh):
+def check_polish(method: Any, may_improve: bool = False) -> None:
+    """Refuse a method that is not Metropolis-Hastings, or `improve` for one result where that is allowed."""
+    is_improve = isinstance(method, Improve) and method.diverse is None
+    if not isinstance(method, Mh) and not (may_improve and is_improve):
         suggestion = "`mh(20_000)`, or with a kernel `mh(20_000, kernel=kernels.drift())`"
-        raise bad("polish", method, "Metropolis-Hastings", suggestion)
+        expected = "Metropolis-Hastings" + (", or `improve` for one result" if may_improve else "")
+        raise bad("polish", method, expected, suggestion)
 
 
 def check_threads(threads: int | None) -> int | None:

@@ -14,7 +14,7 @@ from niwaki.errors.settings import bad
 from niwaki.errors.warned import warn
 from niwaki.lang.compiled import LOOSEN, translated
 from niwaki.lang.models import as_model
-from niwaki.methods import Emulate, Guide, Hmc, Method, Mh, Nuts, ParticleGibbs, Vi, at_least_one
+from niwaki.methods import Emulate, Guide, Hmc, Improve, Method, Mh, Nuts, ParticleGibbs, Vi, at_least_one
 from niwaki.methods.room import PARTICLE, check_method
 from niwaki.result import Result, Sample
 from niwaki.result.chains import MhInfo, Running
@@ -76,6 +76,19 @@ def run_once(
         return fit_normals(search, search.method, seed, threads, watch, start)
     if isinstance(search.method, Emulate):
         return run_emulator(search, search.method, seed, watch)
+    return _searched(search, seed, threads, watch, start, stage)
+
+
+def _searched(
+    search: SearchLike,
+    seed: int,
+    threads: int | None,
+    watch: EngineWatch,
+    start: _engine.Run | None,
+    stage: Stage | None = None,
+    spent: tuple[float, float] = (0.0, 0.0),
+) -> Result:
+    """Search by a method that the engine runs from its text, after so many seconds and processor seconds."""
     method, attached = engine_form(with_addresses(search))
     counted, clock = search.task.uncounted(), Clock()
     with translated_run(search, seed):
@@ -94,10 +107,11 @@ def run_once(
         check_number(info, len(runs), diverse, interrupted)
     elif isinstance(info, PopulationInfo) and diverse is not None:
         runs = distinct(runs, diverse, info)
-    seconds = clock.read()
     if stage is not None:
         stage.collect()
-        seconds = seconds[0] + stage.before[0], seconds[1] + stage.before[1]
+        spent = stage.before
+    wall, processor = clock.read()
+    seconds = wall + spent[0], processor + spent[1]
     samples = [Sample(run, search, seed, *seconds) for run in runs]
     invalid = [Invalid(*fields) for fields in counted.invalid()]
     return Result(search, samples, seed, info=info, interrupted=interrupted, invalid=invalid, seconds=seconds)
@@ -290,18 +304,18 @@ def regrow(
 
 def polish(
     result: Result,
-    method: Mh,
+    method: Mh | Improve,
     seed: int,
     threads: int | None,
     watch: EngineWatch,
     stage: Stage | None = None,
 ) -> Result:
-    """Run chains from the best sample of a result; their time is added to the time of the search.
+    """Run chains or rounds from the best sample of a result; their time is added to the time of the search.
 
     A population compares many runs, each built once. A proposal of a chain changes one choice of one run, and
     recomputes only what depends on that choice. So chains improve the best run of a population.
     """
-    check_polish(method)
+    check_polish(method, may_improve=True)
     check_method(method)
     check_seed(seed)
     check_threads(threads)
@@ -310,5 +324,8 @@ def polish(
         expected = "a search with a run that has ended, for the chain to start from"
         raise bad("polish", best, expected, "more time or particles")
     spent = result.seconds, result.cpu_seconds
+    if isinstance(method, Improve):
+        search = replace(result.search, method=method, choices=None, runs=1, keep="all", polish=None)
+        return _searched(search, seed, threads, watch, best._run, spent=spent)
     watch = watch if stage is None else stage.watched(watch)
     return run_chains(result.search, method, seed, threads, watch, best._run, spent, stage)

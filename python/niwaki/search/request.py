@@ -34,7 +34,7 @@ from niwaki.lang.compiled import arguments, task
 from niwaki.lang.core import Core
 from niwaki.lang.labels import Labels
 from niwaki.lang.models import Model, as_model
-from niwaki.methods import Forward, Guide, Method, Mh
+from niwaki.methods import Forward, Guide, Improve, Method, Mh
 from niwaki.once import cached_property
 from niwaki.result import Result, Sample, parts
 from niwaki.result.progress import Watch, watcher
@@ -186,7 +186,7 @@ class Search:
     def polished(
         self,
         result: Result,
-        method: Mh,
+        method: Mh | Improve,
         *,
         seed: int | None = None,
         threads: int | None = None,

@@ -3,6 +3,9 @@ equal chains from those choices."""
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+
 import niwaki as nw
 import pytest
 from niwaki import kernels
@@ -48,6 +51,50 @@ def test_it_is_the_chain_of_those_choices() -> None:
     assert polished.best.log_score == by_hand.best.log_score > result.best.log_score
     # A result can be polished again.
     assert polished.polish(method).best.log_score >= polished.best.log_score
+
+
+@nw.model
+def eye() -> float:
+    """A number that no population draws, and a nearer one that moves find."""
+    x = nw.uniform(0.0, 1.0)
+    nw.factor(-1e9 * x if x < 1e-8 else -math.inf)
+    return x
+
+
+def test_rounds_of_improve_begin_at_the_best() -> None:
+    result = searched()
+    method = nw.improve(rounds=8)
+    better = result.polish(method, seed=7)
+    rounds = better.info.rounds
+    assert [rounds[0].step, len(rounds)] == ["start", 9] and better.info.attempts == ()
+    assert rounds[0].best == result.best.log_score < better.best.log_score == rounds[-1].best
+    assert str(better.info).startswith("a run that was given")
+    assert result.polish(method, seed=7, threads=1).best.choices == better.best.choices
+    # Mutant: a search anew begins with a population, and not there.
+    anew = nw.run(row, method=method, seed=7).info.rounds[0]
+    assert anew.step == "population" and anew.best != result.best.log_score
+
+
+def test_rounds_go_on_where_every_population_dies() -> None:
+    start = nw.run(eye, choices={"x": 5e-9})
+    better = start.polish(nw.improve(rounds=8), seed=1)
+    assert start.best.log_score < better.best.log_score <= 0.0
+    with pytest.raises(InputError, match="every run of the search is impossible"):
+        nw.run(eye, method=nw.improve(rounds=8), seed=1)
+
+
+def test_what_is_held_stays_in_rounds_from_a_run() -> None:
+    result = searched()
+    held = {address: value for address, value in result.best.choices.items() if not value}
+    search = replace(result.search, hold=held)
+    better = nw.Result(search, result.samples, result.seed).polish(nw.improve(rounds=8))
+    assert better.best.choices.items() >= held.items()
+    assert better.best.log_score <= result.best.log_score
+
+
+def test_only_one_result_begins_at_a_run() -> None:
+    with pytest.raises(InputError, match="or `improve` for one result"):
+        searched().polish(nw.improve(diverse=3))
 
 
 def test_its_time_is_that_of_both() -> None:

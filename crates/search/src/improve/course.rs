@@ -9,10 +9,15 @@ use super::price::{self, FLOOR};
 use super::rounds::{self, Round, Search};
 use super::start::number_of;
 use super::{Improve, Improved, part_seed, population_seed};
+use niwaki_chain::walk::state::State;
+use niwaki_chain::walk::streams::Streams;
 use niwaki_particles::{Progress, Result as Population};
+use niwaki_run::log::Entry;
+use niwaki_run::replay::by_address;
 use niwaki_run::run::{Run, Shown};
 use niwaki_run::{Failure, Task};
 use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
 
 /// Least gain that counts, nats.
 pub(super) const LEAST_GAIN: f64 = 0.01;
@@ -90,7 +95,33 @@ impl<'a> Course<'a> {
         let unit = (work * improve.particles as u64 / tried as u64).max(1);
         let search = Search::begin(improve, task, seed, unit, info.attempts.len() as u64, first)?;
         let price = if is_stopped { 1 } else { price::of(task, &search.best)? };
-        Ok(Course {
+        let form = last.map_or(0, |attempt| number_of(attempt.form));
+        Ok(Course::of(search, seed, work, form, price))
+    }
+
+    /// A course from the run with these choices. The cost of a population is estimated from that of the run.
+    ///
+    /// # Errors
+    /// The run is impossible, or a fault of the program.
+    pub fn at(
+        improve: &'a Improve,
+        task: &'a Task,
+        seed: u64,
+        choices: &[Entry],
+    ) -> Result<Course<'a>, Failure> {
+        let (state, _) = State::start(task, Streams::new(0, 0), 1, Some(&by_address(choices)))?;
+        let (run, work) = (state.run(&task.program, 0), state.primitives as u64 + 1);
+        let price = price::of(task, &run)?;
+        let slice = (work * improve.particles as u64 / rounds::PER_POPULATION).max(1);
+        let rounds_seed = restart_seed(seed, 0);
+        let search = Search::at(improve, task, rounds_seed, slice, (run, state), None, HashMap::new());
+        Ok(Course::of(search, seed, work, 0, price))
+    }
+
+    /// A course before its first round, with the work and the form of its first population.
+    fn of(search: Search<'a>, seed: u64, work: u64, form: usize, price: u64) -> Course<'a> {
+        let (improve, task) = (search.improve, search.task);
+        Course {
             improve,
             task,
             seed,
@@ -99,10 +130,15 @@ impl<'a> Course<'a> {
             number: 0,
             restarts: 0,
             work: Work { total: work, since: work, idle: 0 },
-            form: last.map_or(0, |attempt| number_of(attempt.form)),
+            form,
             price,
             most: price::most(task),
-        })
+        }
+    }
+
+    /// The work so far.
+    pub fn work(&self) -> u64 {
+        self.work.total
     }
 
     /// The course as data, between two rounds; `None` if it was stopped before its first round.

@@ -1,7 +1,8 @@
 //! A search for the best run, which spends its effort on the steps that gain most. It is not a sampler: its result has no
 //! evidence and no weights.
 //!
-//! 1. *Begin* (`start`): populations of particles, until one has a possible run. Its cost is the unit of effort.
+//! 1. *Begin* (`start`): populations of particles, until one has a possible run. Its cost is the unit of effort. A search that is given
+//!    a run begins there, and its unit is the cost of that many such runs.
 //! 2. *Rounds* (`rounds`) of a fifth of that unit. Each makes steps of one arm from the best run, and the arms (`arms`) share the
 //!    rounds by their latest gains: parts grown again by few or by many particles, moves of single choices, edits of
 //!    levels (`levels`, `edits`), and a new population.
@@ -42,6 +43,7 @@ use niwaki_particles::{Progress, Watch};
 use niwaki_propose::proposal::Proposal;
 use niwaki_run::checkpoint::Checkpoint;
 use niwaki_run::failure::Attempt;
+use niwaki_run::log::Entry;
 use niwaki_run::losses::Lost;
 use niwaki_run::run::{Run, Shown};
 use niwaki_run::setting::{COUNT, FROM_ZERO, POSITIVE, Range, Ranges, whole};
@@ -88,6 +90,9 @@ pub struct Improve {
     /// The proposal that draws choices in place of the prior.
     #[serde(skip)]
     drawn_by: Option<Arc<Proposal>>,
+    /// The choices of a run from which the search begins, in place of populations.
+    #[serde(skip)]
+    first_run: Option<Arc<[Entry]>>,
     /// Whether the best runs of all restarts are kept, and not only the best of all.
     #[serde(skip)]
     keeps_all: bool,
@@ -149,22 +154,25 @@ impl Improve {
     }
 
     /// Searches for the best run, or for several different runs, best first. If there is a `proposal`, populations and parts that are
-    /// grown again draw their choices from it, and no weight corrects its draws. `watch` is called with the number of rounds and the best log score, after the best run
+    /// grown again draw their choices from it, and no weight corrects its draws. A search for a single result begins from the run `start`,
+    /// if there is one. `watch` is called with the number of rounds and the best log score, after the best run
     /// is `shown`; when it returns false, the search ends with its best so far. Each search is a part of the `checkpoint`.
     ///
     /// # Errors
-    /// A fault of the program, or first populations that all died.
+    /// A fault of the program, first populations that all died, or a first run that is impossible.
     pub fn search(
         &self,
         task: &Task,
         seed: u64,
         proposal: Option<Arc<Proposal>>,
+        start: Option<&[Entry]>,
         outputs: Outputs<'_>,
         watch: &mut Watch<'_>,
     ) -> Result<(Vec<Run>, Improved), Failure> {
         // A weight of prior over proposal would draw particles back to the prior, and the result is no sample anyway.
         let proposal = proposal.map(|proposal| Arc::new(proposal.unweighed()));
-        let improve = Improve { drawn_by: proposal, ..self.clone() };
+        let first_run = start.filter(|_| self.diverse.is_none()).map(Arc::from);
+        let improve = Improve { drawn_by: proposal, first_run, ..self.clone() };
         match improve.diverse {
             None => improve.single(task, seed, 0, outputs, watch).map(|(mut runs, info)| {
                 runs.truncate(1);
@@ -220,14 +228,17 @@ impl Improve {
             Some(stored) => stored.course(self, task, seed)?,
             None => {
                 let mut info = Improved { searches: 1, ..Improved::default() };
-                let may_try = || !is_late(Duration::ZERO);
-                let mut first = self.start(task, seed, 0, &mut info.attempts, watch, &may_try)?;
-                info.lost = std::mem::take(&mut first.losses).explained(task);
-                info.interrupted = first.interrupted;
-                let work = first.steps;
-                let course = Course::begin(self, task, seed, &info, first)?;
+                let (course, step) = if let Some(run) = &self.first_run {
+                    (Course::at(self, task, seed, run)?, Step::START)
+                } else {
+                    let may_try = || !is_late(Duration::ZERO);
+                    let mut first = self.start(task, seed, 0, &mut info.attempts, watch, &may_try)?;
+                    info.lost = std::mem::take(&mut first.losses).explained(task);
+                    info.interrupted = first.interrupted;
+                    (Course::begin(self, task, seed, &info, first)?, arms::POPULATION.step)
+                };
                 info.price = course.price;
-                let (step, best, time) = (arms::POPULATION.step, course.best(), elapsed());
+                let (work, best, time) = (course.work(), course.best(), elapsed());
                 info.rounds.push(Round { step, work, parts: 0, best, time });
                 (course, info)
             }

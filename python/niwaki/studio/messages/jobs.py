@@ -105,12 +105,20 @@ class Glimpse(Job, tag="glimpse"):
 
 
 class Grow(Job, tag="grow"):
-    """Search, and write the results to `file`."""
+    """Search, and write the results to `file`.
+
+    Attributes
+    ----------
+    source, number
+        A result from which the search begins, where a search of the kind of model can; else it begins anew.
+    """
 
     question: Question
     run: int
     seed: int
     file: str
+    source: str = ""
+    number: int = 0
 
 
 class GrowValues(Job, tag="grow-values"):

@@ -49,7 +49,7 @@ async def drag(session: Session, window: Window, command: m.Drag) -> m.Answer | 
 
 
 async def _follow(session: Session, picked: m.Key, question: m.Question, held: list[m.HeldPart]) -> None:
-    """Grow the rest again around the part; without an outcome, the result stays."""
+    """Improve the rest around the part, from the result of the drag."""
     if session.searching is not None:
         return
     hold = question.hold | {name: value for part in held for name, value in part.choices.items()}
@@ -58,7 +58,9 @@ async def _follow(session: Session, picked: m.Key, question: m.Question, held: l
         **session.fresh_run(),
         question=msgspec.structs.replace(question, hold=hold, settings=settings),
         seed=secrets.randbits(53),
+        **session.source(picked),
     )
     answer = await session.searcher.do(job, session.forward)
+    session.report_problem(answer)
     if answer.outcomes and session.document.picked == picked:
         session.replace("follow", picked, of_model(answer.outcomes, question.model))

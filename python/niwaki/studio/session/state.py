@@ -138,7 +138,7 @@ class Session:
                 answer = m.Answer(interrupted=True)
             except Exception as error:
                 answer = m.Answer(problem=problem(error))
-            (report or self._report_problem)(answer)
+            (report or self.report_problem)(answer)
             return answer
 
         def close(task: asyncio.Task[m.Answer]) -> None:
@@ -152,7 +152,8 @@ class Session:
         task.add_done_callback(close)
         return task
 
-    def _report_problem(self, answer: m.Answer) -> None:
+    def report_problem(self, answer: m.Answer) -> None:
+        """Tell all windows why a job failed, if it did."""
         if answer.problem is not None:
             for window in self.windows:
                 window.tell(m.Failed(0, answer.problem))

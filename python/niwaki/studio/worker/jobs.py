@@ -101,7 +101,9 @@ def _solid(ask: TargetAsk, job: int, send: Any, **header: Any) -> NDArray[np.flo
 
 
 def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
-    """Search for results that differ, and send the best so far."""
+    """Search for results that differ, or for a better result from a known one, and send the best so far."""
+    if job.source:
+        return _improve(job, send, check)
     model, goals = asks.search(job.question)
     settings = job.question.settings
     progress, hold = watching(job.id, job.run, send, check), runs.values(job.question.hold) or None
@@ -130,6 +132,18 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
     words = [", ".join(f"{name}: {value}" for name, value in kinds[id(sample)]) for sample in result.samples]
     outcomes = [structs.replace(each, kind=text) for each, text in zip(answer.outcomes, words, strict=True)]
     return structs.replace(answer, outcomes=outcomes, note="; ".join(filter(None, [answer.note, *conflicts])))
+
+
+def _improve(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
+    """Search from a result, which is the answer if no other is better."""
+    model, hold = models.reference(job.question.model), runs.values(job.question.hold)
+    search, choices = search_again(job.question, runs.sample(job.source, job.number), hold)
+    with translated(search.model.name, choices=choices):
+        start = Sample.of_trace(search.task.replay(choices, None), search, job.seed)
+    method = nw.improve(**spending(job.question.settings.effort))
+    progress = watching(job.id, job.run, send, check)
+    result = Result(search, [start], job.seed).polish(method, progress=progress)
+    return _answer(result, model, job.run, job.file, "run", send, job.id)
 
 
 def spending(effort: float) -> dict[str, Any]:

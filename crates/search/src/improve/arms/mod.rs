@@ -64,6 +64,8 @@ pub struct Step(&'static str);
 impl Step {
     /// A population from the start, from whose best run the next rounds go on.
     pub const RESTART: Step = Step("restart");
+    /// A run that was given, in place of a first population.
+    pub const START: Step = Step("start");
 
     /// The name in reports.
     pub fn name(self) -> &'static str {
@@ -74,7 +76,7 @@ impl Step {
 impl<'de> Deserialize<'de> for Step {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Step, D::Error> {
         let name = String::deserialize(from)?;
-        let mut all = ARMS.iter().map(|arm| arm.step).chain([Step::RESTART]);
+        let mut all = ARMS.iter().map(|arm| arm.step).chain([Step::RESTART, Step::START]);
         all.find(|step| step.0 == name).ok_or_else(|| serde::de::Error::custom(format!("no step {name:?}")))
     }
 }
