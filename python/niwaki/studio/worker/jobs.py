@@ -17,11 +17,12 @@ from niwaki import kernels
 from niwaki.errors import NiwakiError
 from niwaki.lang.compiled import translated
 from niwaki.methods.chains import Mh
-from niwaki.methods.improve import usual_rounds
+from niwaki.methods.improve import Improve, usual_rounds
 from niwaki.result import Progress, Result, Sample
 from niwaki.result.progress import Watch
 from niwaki.result.search_like import SearchLike
 from niwaki.search import named
+from niwaki.search.entry import grow_search
 from niwaki.shell import requirements
 from niwaki.shell.references import ModelReference
 from niwaki.studio.messages import (
@@ -102,8 +103,6 @@ def _solid(ask: TargetAsk, job: int, send: Any, **header: Any) -> NDArray[np.flo
 
 def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
     """Search for results that differ, or for a better result from a known one, and send the best so far."""
-    if job.source:
-        return _improve(job, send, check)
     model, goals = asks.search(job.question)
     settings = job.question.settings
     progress, hold = watching(job.id, job.run, send, check), runs.values(job.question.hold) or None
@@ -112,6 +111,12 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
     rules = requirements.beside(model)
     if rules is not None:
         goals["score"] = rules.aims(goals["score"])
+    if job.source:
+        search = grow_search(model.model, **goals, **spending(settings.effort), seed=job.seed, hold=hold)
+        start = _replayed(search, runs.sample(job.source, job.number).choices, job.seed)
+        if isinstance(search.method, Improve) and start.cause is None:
+            result = Result(search, [start], job.seed).polish(search.method, progress=progress)
+            return _answer(result, model, job.run, job.file, "run", send, job.id)
 
     def attempt(seed: int, candidates: int) -> Result:
         return nw.grow(
@@ -134,16 +139,10 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
     return structs.replace(answer, outcomes=outcomes, note="; ".join(filter(None, [answer.note, *conflicts])))
 
 
-def _improve(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
-    """Search from a result, which is the answer if no other is better."""
-    model, hold = models.reference(job.question.model), runs.values(job.question.hold)
-    search, choices = search_again(job.question, runs.sample(job.source, job.number), hold)
+def _replayed(search: SearchLike, choices: dict[str, Any], seed: int) -> Sample:
+    """Return the run of a search with the choices of a result."""
     with translated(search.model.name, choices=choices):
-        start = Sample.of_trace(search.task.replay(choices, None), search, job.seed)
-    method = nw.improve(**spending(job.question.settings.effort))
-    progress = watching(job.id, job.run, send, check)
-    result = Result(search, [start], job.seed).polish(method, progress=progress)
-    return _answer(result, model, job.run, job.file, "run", send, job.id)
+        return Sample.of_trace(search.task.replay(choices, None), search, seed)
 
 
 def spending(effort: float) -> dict[str, Any]:
@@ -174,8 +173,7 @@ def regrow(job: Regrow, send: Any) -> Answer:
     search, choices = search_again(
         job.question, runs.sample(job.source, job.number), runs.values(job.question.hold)
     )
-    with translated(search.model.name, choices=choices):
-        whole = Sample.of_trace(search.task.replay(choices, None), search, job.seed)
+    whole = _replayed(search, choices, job.seed)
     forms: list[Sample] = []
     for number in range(job.count if job.strength is None else 2 * job.count):
         form = form_of_part(whole, job.part, (job.seed + number) % 2**53)
