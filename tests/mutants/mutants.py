@@ -44,6 +44,8 @@ QUICK += [f"profile.release.package.niwaki-{crate}.{key}" for crate in CRATES fo
 SOURCES = ["Cargo.toml", "Cargo.lock", "crates", "benches/hmc", "pyproject.toml", "python", "tests"]
 #: The engine as Python loads it; it is built, and not among the sources.
 ENGINE = "python/niwaki/_engine.abi3.so"
+#: The command that builds the engine for judges in Python.
+BUILD_ENGINE = ["cargo", "build", "--locked", "--quiet", "-p", "niwaki-py"]
 BUILD_LIMIT = 1800.0  # seconds
 #: A line of pytest: the test's name, and how it ended.
 PYTEST = r"^\S+::(\S+) (PASSED|FAILED)"
@@ -152,7 +154,9 @@ def copy_sources() -> None:
 
 def run(command: list[str], limit: float) -> tuple[int | None, str, float]:
     """Status (None: too long), its output, seconds."""
-    env = {**os.environ, "CARGO_TARGET_DIR": str(SCRATCH / "build"), "PYTHONPATH": str(TREE / "python")}
+    of_engine = {"PYO3_BUILD_EXTENSION_MODULE": "1", "PYO3_PYTHON": sys.executable}
+    of_tree = {"CARGO_TARGET_DIR": str(SCRATCH / "build"), "PYTHONPATH": str(TREE / "python")}
+    env = {**os.environ, **of_engine, **of_tree}
     start = time.monotonic()
     with subprocess.Popen(
         command,
@@ -190,11 +194,16 @@ class Outcome:
 def judged(judge: Judge, limit: float) -> Outcome:
     """Builds a judge and runs it; `passed` where no test of it failed."""
     if judge.crate == "python":
+        # The engine of the tree, which a mutant in Rust changes; cargo builds it only where it is not up to date.
+        status, output, build = run(BUILD_ENGINE, BUILD_LIMIT)
+        if status != 0:
+            return Outcome("no build", [], build, 0.0, output)
+        shutil.copy2(SCRATCH / "build/debug/lib_engine.so", TREE / ENGINE)
         status, output, took = run([*judge.command(), "-k", " or ".join(judge.patterns)], limit)
         ended = {
             name: "FAILED" if how == "FAILED" else "ok" for name, how in re.findall(PYTEST, output, re.M)
         }
-        return outcome(judge, status, output, 0.0, took, ended)
+        return outcome(judge, status, output, build, took, ended)
     status, output, build = run([*judge.command(), "--no-run"], BUILD_LIMIT)
     if status != 0:
         return Outcome("no build", [], build, 0.0, output)
