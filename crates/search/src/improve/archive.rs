@@ -5,7 +5,8 @@
 //!    It is fixed then. What tells niches apart follows from it, or from the names that a user gave (`niche`).
 //! 3. Generations of short searches, side by side. Some turn one choice of a good run so that a niche comes that was never met, and
 //!    grow what it brings; others improve the run of a promising niche with its choices held; where there are fewer niches
-//!    than results, and a result may not be far below the best, others start from a population of their own. They end after three times the work of the first search.
+//!    than results, and a result may not be far below the best, others start from a population of their own. They end after three
+//!    times the work of the first search.
 //! 4. The results are chosen by niche, then by look (`choose`, `look`).
 //!
 //! A generation is planned from the archive alone, and its searches are counted, so the bits do not depend on threads. The archive is

@@ -9,11 +9,8 @@ use super::price::{self, FLOOR};
 use super::rounds::{self, Round, Search};
 use super::start::number_of;
 use super::{Improve, Improved, part_seed, population_seed};
-use niwaki_chain::walk::state::State;
-use niwaki_chain::walk::streams::Streams;
 use niwaki_particles::{Progress, Result as Population};
 use niwaki_run::log::Entry;
-use niwaki_run::replay::by_address;
 use niwaki_run::run::{Run, Shown};
 use niwaki_run::{Failure, Task};
 use serde::{Deserialize, Serialize};
@@ -109,8 +106,8 @@ impl<'a> Course<'a> {
         seed: u64,
         choices: &[Entry],
     ) -> Result<Course<'a>, Failure> {
-        let (state, _) = State::start(task, Streams::new(0, 0), 1, Some(&by_address(choices)))?;
-        let (run, work) = (state.run(&task.program, 0), state.primitives as u64 + 1);
+        let (run, state) = rounds::at_choices(task, choices)?;
+        let work = run.primitives as u64 + 1;
         let price = price::of(task, &run)?;
         let slice = (work * improve.particles as u64 / rounds::PER_POPULATION).max(1);
         let rounds_seed = restart_seed(seed, 0);

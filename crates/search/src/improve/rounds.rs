@@ -14,6 +14,7 @@ use niwaki_math::Stream;
 use niwaki_math::bits;
 use niwaki_particles::rejuvenation::spreads;
 use niwaki_particles::{Result, Settings, smc};
+use niwaki_run::log::Entry;
 use niwaki_run::replay::by_address;
 use niwaki_run::run::Run;
 use niwaki_run::streams::Reserved;
@@ -332,8 +333,15 @@ pub(super) fn with_value(task: &Task, run: Run) -> std::result::Result<Run, Fail
 /// No run has ended, or a fault of the program.
 pub(super) fn best_of(task: &Task, result: Result) -> std::result::Result<(Run, State), Failure> {
     let best = most(result, |run| run.has_ended).ok_or_else(Failure::no_start)?;
-    let known = by_address(&best.log.entries());
-    let (state, _) = State::start(task, Streams::new(0, 0), 1, Some(&known))?;
+    at_choices(task, &best.log.entries())
+}
+
+/// The run with these choices, and a chain's state at it.
+///
+/// # Errors
+/// The run is impossible, or a fault of the program.
+pub(super) fn at_choices(task: &Task, choices: &[Entry]) -> std::result::Result<(Run, State), Failure> {
+    let (state, _) = State::start(task, Streams::new(0, 0), 1, Some(&by_address(choices)))?;
     Ok((state.run(&task.program, 0), state))
 }
 
