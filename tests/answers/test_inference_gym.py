@@ -158,7 +158,7 @@ def nuts(request: pytest.FixtureRequest) -> Callable[..., Any]:
 
 
 def test_eight_schools(nuts) -> None:
-    result = nw.run(eight_schools, nuts(target_accept=0.98), EFFECTS, DEVIATIONS, seed=1)
+    result = nw.run(eight_schools, nuts(target_accept=0.98), EFFECTS, DEVIATIONS, seed=2)
     names = ("AVG_EFFECT", "LOG_STDDEV", "SCHOOL_EFFECTS")
     assert errors(result, "eight_schools", names).max() < 4
 

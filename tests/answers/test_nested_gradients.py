@@ -255,7 +255,7 @@ def differences(f: Callable[[np.ndarray], float], x: np.ndarray) -> np.ndarray:
     for k in range(len(x)):
         step = np.zeros_like(x)
         slopes = []
-        for h in (4e-3, 2e-3):
+        for h in (1e-3, 5e-4):
             step[k] = h
             slopes.append((f(x + step) - f(x - step)) / (2 * h))
         gradient.append((4 * slopes[1] - slopes[0]) / 3)
@@ -395,9 +395,10 @@ def test_chains_follow_the_outer_posterior(of: Any, method: Any) -> None:
         assert abs(batches.mean() - truth) < 4.5 * error, (batches.mean(), truth, error)
 
 
+@pytest.mark.filterwarnings("ignore:Pareto's k")
 @pytest.mark.parametrize("of", [data_inside, expectation], ids=lambda of: of.__name__)
 def test_normals_find_the_evidence(of: Any) -> None:
-    """The evidence by weighed draws, against quadrature; within 4.5 standard errors by their effective number."""
+    """The evidence by weighed draws, against quadrature: both have heavier tails than a normal, which weigh little here."""
     _, _, truth = moments(of, "rate" if of is expectation else "x", -8.0, 8.0)
     result = nw.run(of, nw.vi(draws=4000), seed=2)
     assert result.log_evidence is not None

@@ -90,7 +90,7 @@ CALLS: dict[str, Sequence[Sequence[str]]] = {
     "grow circuit": [["grow", "circuit", "--particles", "10", "--seed", "1", "--quick"]],
     "grow from": [
         [*TREE, "--particles", "20", "-o", "first"],
-        [*TREE, "--from", "first/run.json", "--reroll", "branch/branch", "--rounds", "2"],
+        [*TREE, "--from", "first/run.json", "--reroll", "branch/branch", "--rounds", "2", "--seed", "3"],
     ],
     "grow json": [[*TREE, "--particles", "10", "--json"]],
     "fit": [

@@ -8,7 +8,6 @@
 //! | [`polygon`] | simple polygons of the plane |
 //! | [`portable`] | elementary functions with the same bits on every machine |
 //! | [`streams`] | random bits as a function of seed, stream, address and visit |
-//! | [`first_blocks`] | the first bits of many streams, made together |
 //! | [`rounding`] | the grid on which log scores are added and subtracted exactly |
 //! | [`fingerprint`] | a hash of the bits that this machine computes |
 //! | [`total`] | exact sums of log scores of any size |
@@ -24,7 +23,6 @@ pub mod bits;
 pub mod color;
 pub mod distributions;
 pub mod fingerprint;
-pub mod first_blocks;
 pub mod log_sums;
 pub mod polygon;
 pub mod portable;
@@ -39,7 +37,6 @@ pub use distributions::{
     BadParameter, COORDINATES, Dist, Draw, Family, Interval, LEAST, MOST_NUMBERS, Param, Parameter, Placed,
     Space, Support, logistic,
 };
-pub use first_blocks::FirstBlocks;
 pub use rounding::grid;
 pub use scalar::{LastLog, Scalar};
 pub use streams::{RngCore, Stream, StreamKey};

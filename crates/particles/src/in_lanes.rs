@@ -12,7 +12,7 @@ use crate::copies::Copies;
 use crate::resident::{Growth, values_to_recount};
 use niwaki_math::distributions::Tables;
 use niwaki_math::total::NEAR;
-use niwaki_math::{Draw, FirstBlocks, StreamKey, grid};
+use niwaki_math::{Draw, StreamKey, grid};
 use niwaki_propose::particle::Particle;
 use niwaki_run::log::Log;
 use niwaki_run::weights::near_log_step;
@@ -40,7 +40,6 @@ pub(super) struct InLanes {
     log_factors: Vec<f64>,
     /// `log_prior` at the last barrier.
     prior_before: Vec<f64>,
-    blocks: FirstBlocks,
     /// As [`Particle::weighed`] and [`Particle::log_weight`], nats.
     weighed: Vec<f64>,
     pub log_weight: Vec<f64>,
@@ -87,7 +86,6 @@ impl InLanes {
             log_prior: of(|p| p.record.log_prior.near()),
             log_factors: of(|p| p.record.log_factors.near()),
             prior_before: vec![0.0; particles.len()],
-            blocks: FirstBlocks::default(),
             weighed: of(|p| p.weighed.near()),
             log_weight: of(|p| p.log_weight),
             past: Choices { before, segments: vec![first_segment], stored: 0, left: 0 },
@@ -260,7 +258,6 @@ fn only_used(list: &mut [u32]) -> Vec<u32> {
 /// Answers the questions of all particles.
 struct Drawing<'a> {
     streams: &'a [StreamKey],
-    blocks: &'a mut FirstBlocks,
     log_prior: &'a mut [f64],
     log_factors: &'a mut [f64],
     past: &'a mut Choices,
@@ -269,8 +266,8 @@ struct Drawing<'a> {
 impl InLanes {
     /// Runs `f` with the lanes and with what answers them.
     fn with<T>(&mut self, f: impl FnOnce(&mut Lanes, &mut Drawing<'_>) -> T) -> T {
-        let InLanes { lanes, streams, blocks, log_prior, log_factors, past, .. } = self;
-        f(lanes, &mut Drawing { streams, blocks, log_prior, log_factors, past })
+        let InLanes { lanes, streams, log_prior, log_factors, past, .. } = self;
+        f(lanes, &mut Drawing { streams, log_prior, log_factors, past })
     }
 }
 
@@ -284,7 +281,7 @@ fn add(sum: &mut f64, log: f64) -> bool {
 fn draw_from(
     tables: &Tables,
     table_of_lane: &[u32],
-    blocks: &FirstBlocks,
+    uniforms: impl Iterator<Item = f64>,
     log_prior: &mut [f64],
 ) -> Result<Vec<i64>, Divergence> {
     let (mut drawn, mut exact) = (Vec::with_capacity(log_prior.len()), true);
@@ -293,7 +290,6 @@ fn draw_from(
         drawn.push(k);
         exact &= sums.next().is_some_and(|sum| add(sum, log));
     };
-    let uniforms = blocks.uniforms();
     if table_of_lane.is_empty() {
         tables.draw(uniforms.map(|u| (0, u)), &mut take);
     } else {
@@ -316,18 +312,18 @@ impl Drawing<'_> {
 impl LaneAnswers for Drawing<'_> {
     fn choices(&mut self, at: &At<'_, f64>, dists: Dists<'_>) -> Result<Column, Divergence> {
         let (address, lanes) = (at.address(), self.streams.len());
-        self.blocks.make(self.streams, address);
         if let Some((all, table_of_lane)) = dists.shared()
             && all.len() * REPEATS <= lanes
             && let Some(tables) = Tables::of(all)
         {
-            let column = draw_from(&tables, table_of_lane, self.blocks, self.log_prior)?;
+            let uniforms = self.streams.iter().map(|key| key.at(address).uniform());
+            let column = draw_from(&tables, table_of_lane, uniforms, self.log_prior)?;
             return Ok(self.note(address, Column::Ints(Arc::new(column))));
         }
-        let (streams, blocks, sums) = (self.streams, &*self.blocks, &mut *self.log_prior);
+        let (streams, sums) = (self.streams, &mut *self.log_prior);
         let mut exact = true;
         let mut draw = |lane: usize| {
-            let (draw, log) = dists.get(lane).sample_and_score(&mut blocks.stream(streams, lane));
+            let (draw, log) = dists.get(lane).sample_and_score(&mut streams[lane].at(address));
             exact &= add(&mut sums[lane], grid(log));
             draw
         };

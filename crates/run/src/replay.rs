@@ -248,11 +248,14 @@ pub fn by_address(entries: &[Entry]) -> HashMap<u128, Value> {
     entries.iter().filter(|e| !e.is_order()).map(|e| (e.address(), e.value.clone())).collect()
 }
 
-/// The order choices of a log, one for each call: the place of the next future of the log among the runnable futures. `None` if
-/// that future is not runnable, or after the last order choice.
+/// The order choices of a log, one for each call where several futures can run: the place of the next future of the log among the
+/// runnable futures. `None` if that future is not runnable, or after the last order choice.
 pub fn picks(entries: &[Entry]) -> impl FnMut(&State) -> Option<usize> {
     let mut paths = entries.iter().filter(|e| e.is_order()).map(Entry::address);
-    move |state| paths.next().and_then(|path| place(state, path))
+    // A single future is no choice, and stands in no log.
+    move |state| {
+        if state.runnable().len() == 1 { Some(0) } else { paths.next().and_then(|path| place(state, path)) }
+    }
 }
 
 /// The place of the future with this path among the runnable futures.

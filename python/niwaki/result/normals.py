@@ -258,7 +258,7 @@ def _curvature(z: Reals, slopes: Reals) -> tuple[float, float]:
     squares = float(np.square(along).sum())
     k = float(along @ slope) / squares
     rest = slope - slope.mean() - k * along
-    return k, math.sqrt(float(np.square(along * rest).sum())) / squares
+    return k, math.hypot(*(along * rest)) / squares
 
 
 def _log_mean(logs: Reals, count: int) -> float | None:

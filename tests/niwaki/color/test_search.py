@@ -122,7 +122,7 @@ def test_ascent_keeps_rules_better_and_pinned_colours_unchanged(small, tmp_path)
         max(abs(row.residual) for coloring in colorings for row in coloring.report)
         for colorings in (left, moved)
     ]
-    assert worst[1] < 0.2 * worst[0]
+    assert worst[1] < 0.5 * worst[0]
     assert {coloring.colors["wall"] for coloring in moved} == {"#e8d9b0"}
 
 

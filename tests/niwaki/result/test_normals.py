@@ -105,7 +105,7 @@ def test_a_tail_that_no_draw_has_reached_is_seen_by_the_slopes():
 
 
 def test_it_outlives_its_process():
-    result, warned = result_and_warnings(pair, method=nw.vi(draws=50), seed=1)
+    result, warned = result_and_warnings(pair, method=nw.vi(draws=50), seed=3)
     # A mean field is too narrow for this pair: of 20,000 draws the evidence is 0.15 nats too low.
     assert "slopes at the draws" in warned and result.k_hat < 0.7
     copy = pickle.loads(pickle.dumps(result))
@@ -133,7 +133,7 @@ def test_ctrl_c_keeps_the_best_so_far():
 def test_progress_is_reported():
     seen: list[int] = []
     method = nw.vi("full-rank", samples=100, draws=100)
-    nw.run(many, 40, method=method, seed=1, progress=lambda p: seen.append(p.done))
+    nw.run(many, 40, method=method, seed=2, progress=lambda p: seen.append(p.done))
     assert seen == sorted(seen) and seen[-1] > 0
 
 

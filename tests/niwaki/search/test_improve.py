@@ -146,8 +146,8 @@ def path_target() -> nw.Target:
 
 def test_what_dies_as_usual_is_tried_in_other_forms_and_told() -> None:
     with pytest.raises(nw.InputError, match="every run of the search is impossible"):
-        nw.grow(garden_path, path_target(), particles=100, seed=1)
-    result = nw.grow(garden_path, path_target(), seed=1)
+        nw.grow(garden_path, path_target(), particles=100, seed=9)
+    result = nw.grow(garden_path, path_target(), seed=9)
     assert result.info.attempts[0].died_at is not None and result.info.attempts[-1].died_at is None
     assert "which died at barrier" in str(result.info)
     assert result.best.primitives == 9 and result.best.similarity > 0.8
@@ -164,7 +164,7 @@ def test_a_dead_search_names_the_parts_and_what_was_tried() -> None:
 
 def test_two_places_are_blamed_where_two_parts_collide() -> None:
     with pytest.raises(nw.InputError) as error:
-        nw.grow(garden_path, path_target(), particles=100, seed=1)
+        nw.grow(garden_path, path_target(), particles=100, seed=9)
     lines = str(error.value).splitlines()
     first, second = (
         next(k for k, line in enumerate(lines) if text in line) for text in ("7.5 - i", "0.5 * width")

@@ -41,7 +41,7 @@ def faults(sheet: Sheet) -> list[str]:
         if not inside.contains(cuts[piece.number]):
             texts.append(f"{piece.number} leaves the board")
         left = cuts[piece.number].buffer(-0.5 * sheet.kerf, join_style="mitre")
-        if left.symmetric_difference(geometry.Polygon(piece.outline)).area > 1e-6 * left.area:
+        if left.hausdorff_distance(geometry.Polygon(piece.outline)) > 1e-6:
             texts.append(f"{piece.number} has another size")
     for first, second in combinations(sheet.pieces, 2):
         if (

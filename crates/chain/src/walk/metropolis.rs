@@ -19,8 +19,8 @@
 use super::Walk;
 use crate::walk::accept::{Decision, Terms, accepts, selected};
 use crate::walk::proposal::{Move, MoveProposal};
-use crate::walk::streams::{Decisions, scaled};
-use niwaki_math::RngCore;
+use crate::walk::streams::below;
+use niwaki_math::{RngCore, Stream};
 use niwaki_run::fresh::Fresh;
 use niwaki_run::{Failure, Task};
 use niwaki_vm::code::Program;
@@ -28,6 +28,9 @@ use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::kept::{Change, Changed};
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::value::Value;
+
+/// The number of proposals after which memory that is prefetched is read.
+const PREFETCH: u64 = 4;
 
 impl Walk {
     /// Make a proposal for a choice. The choice is picked uniformly, or by the weights of a table.
@@ -42,11 +45,12 @@ impl Walk {
     ) -> Result<(), Failure> {
         let visit = self.visit;
         self.visit += 1;
-        let Some((choice, total, now)) = self.pick(&task.program, visit, table) else { return Ok(()) };
+        let Some((choice, total, mut rng)) = self.pick(&task.program, visit, table) else { return Ok(()) };
         let site = self.counts.number(self.state.trace.site_of(choice));
         proposer.look(&self.state, &task.program, choice);
         let noting = self.best.is_noting();
-        let mut proposal = MoveProposal { proposer, site, moves: now.moves, noting, old: None };
+        let mut proposal =
+            MoveProposal { proposer, site, moves: self.streams.moves(visit), noting, old: None };
         let mut answers = Fresh::plain(self.streams.fresh(visit), &*task.hosts);
         let (trace, strategy) = (&mut self.state.trace, self.strategy);
         let change = match machine.propose(trace, choice, strategy, &mut proposal, &mut answers) {
@@ -65,7 +69,6 @@ impl Walk {
                 table.map_or(trace.len_after() as u64, |t| chain.tables[t].total_after(trace, &task.program));
             selected(total, after)
         };
-        let mut rng = now.rest();
         let decision = self.decide(task, change, beta, &mut rng, selection, old)?;
         let count = &mut self.counts.sites[site];
         count.proposed += 1;
@@ -77,27 +80,25 @@ impl Walk {
         Ok(())
     }
 
-    /// Pick the choice that a proposal changes; with the sum of all weights and the random numbers of the proposal. `None` if no
-    /// choice can be picked.
+    /// Pick the choice that a proposal changes; with the sum of all weights and the random numbers that follow. `None` if no choice
+    /// can be picked.
     #[inline(always)]
-    fn pick(
-        &mut self,
-        program: &Program,
-        visit: u64,
-        table: Option<usize>,
-    ) -> Option<(usize, u64, Decisions)> {
+    fn pick(&self, program: &Program, visit: u64, table: Option<usize>) -> Option<(usize, u64, Stream)> {
         let trace = &self.state.trace;
         let total = table.map_or(trace.len() as u64, |t| self.tables[t].total());
         if total == 0 {
             return None;
         }
-        let guess = |first: u64| match table {
-            None => trace.approach(program, scaled(first, total) as usize),
-            Some(_) => 0,
+        let first = |visit| {
+            let mut rng = self.streams.decisions(visit);
+            (below(&mut rng, total), rng)
         };
-        let now = *self.ahead.of(&self.streams, visit, guess);
-        let at = now.below(total);
-        Some((table.map_or(at as usize, |t| self.tables[t].find(at)), total, now))
+        let (at, rng) = first(visit);
+        let Some(t) = table else {
+            trace.prefetch(program, first(visit + PREFETCH).0 as usize);
+            return Some((at as usize, total, rng));
+        };
+        Some((self.tables[t].find(at), total, rng))
     }
 
     /// Accept or reject the open transaction. `selection` is the log probability of choosing the move after the proposal, less the

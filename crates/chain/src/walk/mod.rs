@@ -28,7 +28,7 @@ use niwaki_vm::machine::kept::Strategy;
 use samples::Samples;
 use state::State;
 use std::collections::HashMap;
-use streams::{Ahead, Streams};
+use streams::Streams;
 use weights::Table;
 
 /// A chain without its kernel.
@@ -56,8 +56,6 @@ pub struct Walk {
     pub(crate) visit: u64,
     /// The number of particle steps of regrown parts.
     pub(crate) grown: u64,
-    /// The decisions of the next proposal.
-    pub(crate) ahead: Ahead,
     /// The last decision.
     pub(crate) last: Decision,
     /// The number of barriers (primitives, factors and observations) of a state, if it is fixed.
@@ -85,7 +83,6 @@ impl Walk {
             warmup: 0,
             streams,
             tables: Vec::new(),
-            ahead: Ahead::default(),
             visit: 0,
             grown: 0,
             last: Decision::default(),

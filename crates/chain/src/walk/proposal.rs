@@ -2,8 +2,7 @@
 
 use crate::walk::accept::Decision;
 use crate::walk::state::State;
-use niwaki_math::first_blocks::FirstBlock;
-use niwaki_math::{Dist, Stream, grid};
+use niwaki_math::{Dist, Stream, StreamKey, grid};
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
@@ -68,7 +67,7 @@ pub(super) struct MoveProposal<'a, M> {
     pub proposer: &'a mut M,
     pub site: usize,
     /// The random bits of its new value.
-    pub moves: FirstBlock,
+    pub moves: StreamKey,
     /// Whether to keep the old value in `old`.
     pub noting: bool,
     pub old: Option<(u128, Value)>,

@@ -69,7 +69,7 @@ fn adapted_powers_do_not_depend_on_a_constant_of_the_score() {
         smc(&task(&text), &settings, &mut |_| true).unwrap().powers
     };
     let plain = powers(0.0);
-    assert!(plain[0] < 1.0 && plain[3] > plain[0], "{plain:?}");
+    assert!(plain[0] < 1.0 && plain.last() > plain.first(), "{plain:?}");
     for constant in [-1e5, 1e5] {
         let shifted = powers(constant);
         let apart = plain.iter().zip(&shifted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);

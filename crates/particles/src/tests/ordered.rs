@@ -264,7 +264,7 @@ fn a_copy_has_the_past_of_its_parent() {
 #[test]
 fn a_policy_of_zeros_is_the_uniform_order() {
     for (_, text) in with_futures() {
-        let seeded = |order| Settings { seed: 2, ..settings(order, Resampling::Systematic) };
+        let seeded = |order| Settings { seed: 1, ..settings(order, Resampling::Systematic) };
         let orders = |order| -> Vec<_> {
             let result = smc(&task(text), &seeded(order), &mut |_| true).unwrap();
             result.particles.iter().map(|p| picks(&p.log.entries())).collect()

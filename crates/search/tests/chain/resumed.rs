@@ -122,7 +122,7 @@ fn improve_goes_on_with_the_same_bits() {
         let (whole, _) = improved(&task, HashMap::new(), u64::MAX);
         let (mut left, mut stops, mut report) = (HashMap::new(), 0, None);
         while report.is_none() {
-            let (ended, stored) = improved(&task, left.clone(), 15 * (1 + stops));
+            let (ended, stored) = improved(&task, left.clone(), 8 * (1 + stops));
             report = ended;
             // A part that was not stored again keeps its earlier data.
             left.extend(stored);

@@ -2,7 +2,6 @@
 //! activation of a choice is in no cache, and each access on the way to it would wait for the one before.
 #![allow(unsafe_code)] // The processor's prefetch, which reads nothing and accepts any address.
 
-use super::super::address::join;
 use super::trace::{ChoiceAt, Trace};
 use crate::code::{Mode, Program};
 use niwaki_math::Scalar;
@@ -21,11 +20,10 @@ fn fetch<T>(items: &[T], at: usize) {
 }
 
 impl<S: Scalar> Trace<S> {
-    /// Prepares a proposal to a choice: prefetches the registers and slots of its activation and of the
-    /// iteration after it. Returns the address of the choice.
+    /// Prefetches what a proposal to a choice reads: the registers and slots of its activation and of the iteration after it.
     #[inline]
-    pub fn approach(&self, program: &Program<S>, choice: usize) -> u128 {
-        let ChoiceAt { node, site } = self.kept.choices[choice];
+    pub fn prefetch(&self, program: &Program<S>, choice: usize) {
+        let ChoiceAt { node, .. } = self.kept.choices[choice];
         let n = &self.state.nodes[node.0 as usize];
         let (registers, slots) = (n.registers as usize, n.slots as usize);
         fetch(&self.state.registers, registers);
@@ -40,6 +38,5 @@ impl<S: Scalar> Trace<S> {
             fetch(&self.state.registers, registers + 8);
             fetch(&self.kept.slots, slots + 4);
         }
-        join(n.path, f.sites[site as usize].key)
     }
 }
