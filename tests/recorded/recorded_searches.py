@@ -239,7 +239,7 @@ def of_methods() -> Iterator[tuple[str, Search]]:
     for name, more in POPULATIONS.items():
         settings = {"particles": 30, **more}
         yield from guided(f"smc {name}", TREE, partial(nw.smc, **settings))
-    yield from variants("smc absolute", TREE, nw.smc(30, weights="absolute"))
+    yield from variants("smc absolute", TREE, nw.smc(60, weights="absolute"))
     yield from variants("smc mixture", MIXTURE, nw.smc(40))
     yield from variants("smc by a proposal", MIXTURE, nw.smc(40, proposal=kernel))
     yield from variants("smc hmc_step", LINE, nw.smc(20, rejuvenate=kernels.hmc_step(3), at="end"))
