@@ -252,9 +252,9 @@ fn shifted(
 }
 
 /// Whether two runs have the same values.
-fn is_same(some: &Values, others: &Values) -> bool {
-    let has = |(address, value)| others.get(address).is_some_and(|other| identical(value, other));
-    some.len() == others.len() && some.iter().all(has)
+fn is_same(a: &Values, b: &Values) -> bool {
+    let has = |(address, value)| b.get(address).is_some_and(|other| identical(value, other));
+    a.len() == b.len() && a.iter().all(has)
 }
 
 /// Positive numbers that sum to 1, drawn evenly.
