@@ -71,7 +71,7 @@ def climbed(seed: int = 1, threads: int = 1, **settings: Any) -> Result:
 
 
 def is_done(rounds: list[Any], price: int, effort: float) -> bool:
-    """Whether a search with these rounds, after its starts, has spent its floor and stands still, as the manual says."""
+    """Whether a search with these rounds, after its starts, has spent its floor and stands still as documented."""
     idle = 0
     for before, step in zip(rounds, rounds[1:], strict=False):
         has_moved = step.step == "restart" or step.best - before.best >= GAIN
