@@ -1,5 +1,8 @@
 //! The course of a search: rounds, and restarts from fresh populations where the best stands still.
 //!
+//! A search begins with a few starts of equal work, and goes on from the best of them: later steps seldom change what a first population
+//! decides, such as the length of a trunk.
+//!
 //! Rounds begin from the best run since the last restart; the best runs of all restarts are kept. Whether the search restarts is
 //! decided by counts of work alone, and not by how it will end. So a search that ended by time, or by itself, is repeated by its
 //! number of rounds.
@@ -26,6 +29,11 @@ const POPULATIONS: u64 = 2;
 const OF_FLOOR: u64 = 4;
 /// Before a restart, it is also at least the work since the last one divided by this: what still climbs is left alone.
 const OF_WORK: u64 = 2;
+/// A search begins with starts: populations, each with rounds that have together the floor divided by this, or its own work. The search
+/// goes on from the best of them.
+const OF_START: u64 = 24;
+/// The starts have together at most the floor divided by this.
+const OF_STARTS: u64 = 3;
 /// Most runs of earlier restarts that are kept, for results that differ.
 const KEPT: usize = 32;
 
@@ -202,7 +210,25 @@ impl<'a> Course<'a> {
 
     /// Whether the best stands still, so that the next round is a restart.
     pub fn is_still(&self) -> bool {
-        self.work.idle >= self.patience().max(self.work.since / OF_WORK)
+        self.is_start_over() || self.work.idle >= self.patience().max(self.work.since / OF_WORK)
+    }
+
+    /// The work of a start, and the number of starts.
+    fn starts(&self) -> (u64, u64) {
+        let population = rounds::PER_POPULATION * self.search.slice;
+        let work = population.max(FLOOR / OF_START / self.price).max(1);
+        (work, FLOOR / OF_STARTS / self.price / work)
+    }
+
+    /// Whether a start has had its work.
+    fn is_start_over(&self) -> bool {
+        let (work, count) = self.starts();
+        self.improve.first_run.is_none() && self.restarts < count && count > 1 && self.work.since >= work
+    }
+
+    /// Whether the last start has had its work, so that the next round goes back to the best of them.
+    fn has_started(&self) -> bool {
+        self.is_start_over() && self.restarts + 1 == self.starts().1
     }
 
     /// The work without a gain after which a search may end.
@@ -219,7 +245,11 @@ impl<'a> Course<'a> {
     pub fn round(&mut self, may_continue: &mut dyn FnMut(f64) -> bool) -> Result<Round, Failure> {
         let earlier = self.earlier.first().map_or(f64::NEG_INFINITY, |run| run.log_score);
         let before = self.search.best.log_score;
-        let (step, work, parts) = if self.is_still() {
+        let (step, work, parts) = if self.has_started() {
+            let work = self.go_back()?;
+            self.work = Work { since: 0, idle: 0, ..self.work };
+            (Step::RESTART, work, 0)
+        } else if self.is_still() {
             let (work, has_lived) = self.restart(may_continue)?;
             self.work = Work { since: if has_lived { 0 } else { self.work.since }, idle: 0, ..self.work };
             (Step::RESTART, work, 0)
@@ -233,6 +263,22 @@ impl<'a> Course<'a> {
         self.work.total += work;
         self.work.since += work;
         Ok(Round { step, work, parts, best: self.best(), time: std::time::Duration::ZERO })
+    }
+
+    /// Goes on from the best run of all starts. Returns the work.
+    fn go_back(&mut self) -> Result<u64, Failure> {
+        self.restarts += 1;
+        let seed = restart_seed(self.seed, self.restarts);
+        let last = &self.search.best;
+        let best = self.earlier.first().filter(|run| run.log_score > last.log_score).unwrap_or(last);
+        let (run, state) = rounds::at_choices(self.task, &best.log.entries())?;
+        let work = run.primitives as u64 + 1;
+        let (slice, spreads) = (self.search.slice, std::mem::take(&mut self.search.spreads));
+        let next = Search::at(self.improve, self.task, seed, slice, (run, state), None, spreads);
+        let last = std::mem::replace(&mut self.search, next);
+        keep(&mut self.earlier, last.best);
+        self.earlier.truncate(if self.improve.keeps_all { KEPT } else { 1 });
+        Ok(work)
     }
 
     /// Goes on from a fresh population. Returns its work, and false if no particle lived or it was stopped.

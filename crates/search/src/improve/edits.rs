@@ -10,7 +10,7 @@ use niwaki_run::{Failure, Task};
 use niwaki_vm::machine::kept::levels::{Iterations, Moved, Within};
 use niwaki_vm::machine::kept::part::Part;
 use niwaki_vm::machine::kept::{Change, Trace};
-use niwaki_vm::value::Value;
+use niwaki_vm::value::{Value, identical};
 use serde::{Deserialize, Serialize};
 use std::collections::{HashMap, HashSet};
 
@@ -220,7 +220,8 @@ struct Shift<'a> {
     by: isize,
 }
 
-/// The values of a run whose loops have iterations more or less, in several `ways`: each at a place of its own, the same in all loops.
+/// The values of a run whose loops have iterations more or less, in at most so many `ways` that differ: each at a place of its own, the
+/// same in all loops.
 fn shifted(
     values: &Values,
     task: &Task,
@@ -230,22 +231,30 @@ fn shifted(
     rng: &mut Stream,
 ) -> Vec<Values> {
     let is_drawn = rng.uniform() < DRAWN;
-    (0..ways.max(1))
-        .map(|_| {
-            let (fill, u) = match rng.uniform() {
-                below if is_drawn && below < AT_END => (Fill::Drawn, 1.0),
-                _ if is_drawn => (Fill::Drawn, rng.uniform()),
-                below if below < 0.5 => (Fill::Copied, rng.uniform()),
-                _ => (Fill::Shared, rng.uniform()),
-            };
-            let mut values = values.clone();
-            for shift in shifts {
-                let shares = shares(shift.by.max(0) as usize + 1, rng);
-                shift.apply(&mut values, task, trace, u, fill, &shares);
-            }
-            values
-        })
-        .collect()
+    let mut all: Vec<Values> = vec![];
+    for _ in 0..ways.max(1) {
+        let (fill, u) = match rng.uniform() {
+            below if is_drawn && below < AT_END => (Fill::Drawn, 1.0),
+            _ if is_drawn => (Fill::Drawn, rng.uniform()),
+            below if below < 0.5 => (Fill::Copied, rng.uniform()),
+            _ => (Fill::Shared, rng.uniform()),
+        };
+        let mut way = values.clone();
+        for shift in shifts {
+            let shares = shares(shift.by.max(0) as usize + 1, rng);
+            shift.apply(&mut way, task, trace, u, fill, &shares);
+        }
+        if !all.iter().any(|other| is_same(other, &way)) {
+            all.push(way);
+        }
+    }
+    all
+}
+
+/// Whether two runs have the same values.
+fn is_same(a: &Values, b: &Values) -> bool {
+    let has = |(address, value)| b.get(address).is_some_and(|other| identical(value, other));
+    a.len() == b.len() && a.iter().all(has)
 }
 
 /// Positive numbers that sum to 1, drawn evenly.

@@ -61,6 +61,10 @@ impl Search<'_> {
                 continue;
             };
             let so_far = present.log_score();
+            if new.is_empty() && edited.log_score().to_bits() == so_far.to_bits() {
+                self.tries.note(form, false);
+                continue;
+            }
             let mut chain = self.chain(kernel, edited, chain_seed, 0)?;
             if !new.is_empty() && !self.task.program.memoises() {
                 let regrow = Regrow::best_of(new.clone(), self.improve.regrow, self.improve.drawn_by.clone());
@@ -115,7 +119,7 @@ impl Search<'_> {
             let new = edits::new_parts(self.task, &state, values);
             let is_known =
                 || state.choices(&self.task.program).all(|(address, _)| values.contains_key(&address));
-            let is_enough = !new.is_empty() || ways.len() == 1 && is_known();
+            let is_enough = !new.is_empty() || number as usize + 1 >= ways.len() && is_known();
             if best.as_ref().is_none_or(|best| state.log_score() > best.state.log_score()) {
                 best = Some(Way { state, new });
             }

@@ -6,7 +6,8 @@
 //! 2. *Rounds* (`rounds`) of a fifth of that unit. Each makes steps of one arm from the best run, and the arms (`arms`) share the
 //!    rounds by their latest gains: parts grown again by few or by many particles, moves of single choices, edits of
 //!    levels (`levels`, `edits`), and a new population.
-//! 3. *Restarts* (`course`): where no round has gained for long, the next begins from a fresh population. The best of all is kept.
+//! 3. *Restarts* (`course`): a search has a few starts of equal work, and goes on from the best of them. Later, where no round has gained for
+//!    long, the next begins from a fresh population. The best of all is kept.
 //! 4. *End* after the given number of rounds; or when the time is over; or, without both, when the search has spent a floor of work
 //!    and no round has gained for long. A search also ends where nothing can be better.
 //!

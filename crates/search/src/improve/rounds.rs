@@ -250,8 +250,7 @@ impl<'a> Search<'a> {
         let gains: Vec<f64> = self.tallies.iter().filter_map(|tally| tally.gain).collect();
         let u = rng.uniform();
         if gains.iter().all(|gain| *gain <= 0.0) || u < EVEN {
-            let share = |tally: &Tally| tally.spent * tally.arm.rarity;
-            return (0..gains.len()).min_by_key(|index| share(&self.tallies[*index])).unwrap_or(0);
+            return (0..gains.len()).min_by_key(|index| self.tallies[*index].spent).unwrap_or(0);
         }
         index(&gains, (u - EVEN) / (1.0 - EVEN))
     }

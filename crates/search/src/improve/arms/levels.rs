@@ -7,12 +7,8 @@ use niwaki_run::Task;
 use niwaki_vm::code::{Function, Mode, Place, Site, SiteKind, Source};
 use niwaki_vm::value::Value;
 
-pub(super) const LEVELS: Arm = Arm {
-    step: Step("levels"),
-    suits: |_, task| may_have_levels(task),
-    form: Form::Edits(moves::kernel),
-    rarity: 4,
-};
+pub(super) const LEVELS: Arm =
+    Arm { step: Step("levels"), suits: |_, task| may_have_levels(task), form: Form::Edits(moves::kernel) };
 
 /// Whether a program has loops with choices or calls, or may have a choice of a whole number or a truth value.
 fn may_have_levels(task: &Task) -> bool {

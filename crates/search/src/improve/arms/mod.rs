@@ -42,9 +42,6 @@ pub(super) struct Arm {
     pub suits: fn(&Sizes, &Task) -> bool,
     /// The form of its steps.
     pub form: Form,
-    /// In rounds that are shared evenly it has this many times less work than an arm with 1: for arms that gain much on some tasks, and
-    /// nothing on most.
-    pub rarity: u64,
 }
 
 /// The form of the steps of an arm. The seed of a population, and the work of a round, are given by the search.

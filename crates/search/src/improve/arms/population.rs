@@ -4,7 +4,7 @@ use super::{Arm, Form, Sizes, Step};
 use niwaki_particles::Settings;
 
 pub(crate) const POPULATION: Arm =
-    Arm { step: Step("population"), suits: |_, _| true, form: Form::Population(settings), rarity: 1 };
+    Arm { step: Step("population"), suits: |_, _| true, form: Form::Population(settings) };
 
 fn settings(sizes: &Sizes) -> Settings {
     let proposal = sizes.drawn_by.clone();
