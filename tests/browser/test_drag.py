@@ -38,7 +38,12 @@ def branches(page):
     places = page.evaluate("""(() => {
       const depth = (part) => part.split("branch").length;
       const parts = window.__studio.shown.parts.toSorted((a, b) => depth(b) - depth(a));
-      return parts.map((part) => [part, window.__studio.pointOf(part)]).filter(([, at]) => at).slice(0, 12);
+      const places = [];
+      for (const part of parts) {
+        const at = window.__studio.pointOf(part);
+        if (at && places.push([part, at]) === 12) return places;
+      }
+      return places;
     })()""")
     box = page.locator("main.stage").bounding_box()
     return [(address, box["x"] + x, box["y"] + y) for address, (x, y) in places]

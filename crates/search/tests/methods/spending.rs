@@ -79,12 +79,13 @@ fn restarts(info: &Improved) -> usize {
     info.rounds.iter().filter(|round| round.step == Step::RESTART).count()
 }
 
-/// The first number of rounds after which a search without restarts has spent its floor and stands still.
+/// The first number of rounds after which a search has spent its floor and stands still.
 fn end(info: &Improved, effort: f64) -> Option<usize> {
     let (mut total, mut idle) = (info.rounds[0].work, 0);
     for (number, pair) in info.rounds.windows(2).enumerate() {
         total += pair[1].work;
-        idle = if pair[1].best - pair[0].best >= 0.01 { 0 } else { idle + pair[1].work };
+        let has_gained = pair[1].best - pair[0].best >= 0.01;
+        idle = if has_gained || pair[1].step == Step::RESTART { 0 } else { idle + pair[1].work };
         let patience = (2 * info.rounds[0].work).max(FLOOR / 4 / info.price) as f64;
         let spent = (total * info.price) as f64;
         if number + 1 >= (15.0 * effort) as usize
@@ -99,11 +100,30 @@ fn end(info: &Improved, effort: f64) -> Option<usize> {
 
 #[test]
 fn a_search_ends_when_the_floor_is_spent_and_the_best_stands_still() {
-    for effort in [0.05, 0.1, 0.2] {
+    for effort in [0.4, 0.5, 0.6] {
         let (info, _) = whole(&hills(), &format!(r#""rounds": null, "effort": {effort}"#));
-        assert_eq!(restarts(&info), 0);
         assert_eq!(end(&info, effort), Some(info.rounds.len() - 1), "{:?}", rounds(&info));
     }
+}
+
+/// Starts of equal work come first; then the search goes on from the best of them.
+#[test]
+fn a_search_goes_on_from_the_best_of_its_starts() {
+    let (info, _) = whole(&hills(), r#""rounds": null, "effort": 0.5"#);
+    let rounds = &info.rounds;
+    let at: Vec<usize> = (0..rounds.len()).filter(|k| rounds[*k].step == Step::RESTART).collect();
+    let starts = at.len().min(8);
+    assert!(starts >= 3, "{at:?}");
+    let works: Vec<u64> = std::iter::once(0)
+        .chain(at[..starts].iter().copied())
+        .zip(&at[..starts])
+        .map(|(from, to)| rounds[from..*to].iter().map(|round| round.work).sum())
+        .collect();
+    // A start ends with the round in which it has had its work.
+    let (least, most) = (works.iter().min().unwrap(), works.iter().max().unwrap());
+    assert!(most < &(2 * least), "{works:?}");
+    // The last of these rounds only takes up the best run: it has no population.
+    assert!(rounds[at[starts - 1]].work < 10 && rounds[at[0]].work > 10, "{:?}", rounds[at[starts - 1]].work);
 }
 
 #[test]
