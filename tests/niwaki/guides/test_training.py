@@ -12,7 +12,6 @@ from dataclasses import replace
 from typing import Any
 
 import niwaki as nw
-import numpy as np
 import pytest
 from bars import PAGES
 from niwaki import guides

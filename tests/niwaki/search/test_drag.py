@@ -277,6 +277,26 @@ def test_structure_changes_where_that_is_the_only_way() -> None:
 
 
 @nw.model
+def column():
+    """Boxes on each other, whose width moves none of their middles."""
+    count = poisson(3.0)
+    width = uniform(0.5, 1.5)
+    for i in range(count):
+        emit(box((0.0, i + 0.5, 0.0), (width, 1, 1)))
+
+
+def test_a_part_of_another_structure_that_nothing_moves_has_its_distance() -> None:
+    sample = next(
+        best for best in (nw.run(column, seed=s).best for s in range(50)) if best.choices["count"] == 3
+    )
+    there = sample.drag("i[2]/emit", (0.0, 3.5, 0.0))
+    assert there.answers[0].sample.choices["count"] == 4
+    far = sample.drag("i[2]/emit", (9.0, 3.5, 0.0))
+    assert not far.answers and far.best is not None
+    assert far.best.distance == pytest.approx(9.0, abs=0.01) and "does not move it that way" in far.reason
+
+
+@nw.model
 def fork():
     """A choice that another one makes: the run has other choices on the other side of zero."""
     x = gaussian(1.0, 1.0)

@@ -53,7 +53,7 @@ def too_far(held: Held, goal: Vector, state: State) -> str:
         more = f" and {len(ends) - 2} more" if len(ends) > 2 else ""
         return f"{left}: {'; '.join(ends[:2])}{more}"
     strength = np.linalg.svd(held.across @ here.slopes * here.ranges[:, 3], compute_uv=False)
-    free = int((strength > 1e-6 * max(held.size, strength[0])).sum())
+    free = int((strength > 1e-6 * max(held.size, strength.max(initial=0.0))).sum())
     dimensions = int(round(float(np.trace(held.across))))
     if free < dimensions:
         moves = (

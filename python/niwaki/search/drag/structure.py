@@ -30,8 +30,12 @@ def structures(held: Held, goal: Vector) -> list[State]:
     states = []
     for _, state in starts[:DESCENTS]:
         here = held.whole(state)
-        if here is not None:
-            states.append(descend(held, goal, state, held.movers(here)))
+        if here is None:
+            continue
+        if names := held.movers(here):
+            states.append(descend(held, goal, state, names))
+        else:
+            states.append(replace(state, error=held.left(goal, here.point)))
     return states
 
 
