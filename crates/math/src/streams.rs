@@ -4,7 +4,7 @@
 //! the number of the word: two products of 64 by 64 bits, each folded by an exclusive or or used whole, as in the hash functions MUM
 //! (Makarov 2016) and wyhash (Wang 2019). A choice therefore draws the same bits whatever was drawn before it, on any thread, after
 //! any fork. The bits pass PractRand (Doty-Humphrey 2010) along a stream, across streams and between streams that differ in a single
-//! bit: `benches/random_bits` repeats that.
+//! bit: the example `random_bits` repeats that.
 
 use std::convert::Infallible;
 
