@@ -116,13 +116,13 @@ def test_the_command_writes_the_files_that_it_names(small, tmp_path) -> None:
 
 def test_ascent_keeps_rules_better_and_pinned_colours_unchanged(small, tmp_path) -> None:
     rules = Rules.load(tmp_path / "rules.toml")
-    left, moved = (color(small, rules, 3, method=QUICK, settle=steps, seed=1) for steps in (0, 200))
+    left, moved = (color(small, rules, 3, method=QUICK, settle=steps, seed=5) for steps in (0, 200))
     assert min(coloring.log_score for coloring in moved) > max(coloring.log_score for coloring in left)
     worst = [
         max(abs(row.residual) for coloring in colorings for row in coloring.report)
         for colorings in (left, moved)
     ]
-    assert worst[1] < 0.5 * worst[0]
+    assert worst[1] < 0.2 * worst[0]
     assert {coloring.colors["wall"] for coloring in moved} == {"#e8d9b0"}
 
 

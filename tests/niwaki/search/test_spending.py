@@ -154,4 +154,4 @@ def test_a_stored_search_without_effort_has_fifteen_rounds() -> None:
 def test_the_bill_has_the_work_by_kind_of_step() -> None:
     info = climbed(rounds=6).info
     assert set(info.spent) == {each.step for each in info.rounds}
-    assert "in 6 rounds" in info.bill
+    assert "in 6 rounds" in info.bill and ("restart" in info.bill) == (info.restarts > 0)
