@@ -213,10 +213,14 @@ impl<'a> Course<'a> {
         self.is_start_over() || self.work.idle >= self.patience().max(self.work.since / OF_WORK)
     }
 
+    /// The work of a population.
+    fn population(&self) -> u64 {
+        rounds::PER_POPULATION * self.search.slice
+    }
+
     /// The work of a start, and the number of starts.
     fn starts(&self) -> (u64, u64) {
-        let population = rounds::PER_POPULATION * self.search.slice;
-        let work = population.max(FLOOR / OF_START / self.price).max(1);
+        let work = self.population().max(FLOOR / OF_START / self.price).max(1);
         (work, FLOOR / OF_STARTS / self.price / work)
     }
 
@@ -233,8 +237,7 @@ impl<'a> Course<'a> {
 
     /// The work without a gain after which a search may end.
     fn patience(&self) -> u64 {
-        let population = rounds::PER_POPULATION * self.search.slice;
-        (POPULATIONS * population).max(FLOOR / OF_FLOOR / self.price)
+        (POPULATIONS * self.population()).max(FLOOR / OF_FLOOR / self.price)
     }
 
     /// Makes the next round, a restart where the best stands still. `may_continue` is called with the best log score, and ends the
@@ -275,10 +278,15 @@ impl<'a> Course<'a> {
         let work = run.primitives as u64 + 1;
         let (slice, spreads) = (self.search.slice, std::mem::take(&mut self.search.spreads));
         let next = Search::at(self.improve, self.task, seed, slice, (run, state), None, spreads);
+        self.turn_to(next);
+        Ok(work)
+    }
+
+    /// Goes on with another search, and keeps the best run of the search before it.
+    fn turn_to(&mut self, next: Search<'a>) {
         let last = std::mem::replace(&mut self.search, next);
         keep(&mut self.earlier, last.best);
         self.earlier.truncate(if self.improve.keeps_all { KEPT } else { 1 });
-        Ok(work)
     }
 
     /// Goes on from a fresh population. Returns its work, and false if no particle lived or it was stopped.
@@ -294,11 +302,9 @@ impl<'a> Course<'a> {
                     return Ok((work, false));
                 }
                 let populations = (self.form + attempts.len()) as u64;
-                let unit = rounds::PER_POPULATION * slice;
+                let unit = self.population();
                 let next = Search::begin(self.improve, self.task, seed, unit, populations, first)?;
-                let last = std::mem::replace(&mut self.search, next);
-                keep(&mut self.earlier, last.best);
-                self.earlier.truncate(if self.improve.keeps_all { KEPT } else { 1 });
+                self.turn_to(next);
                 Ok((work, true))
             }
             Err(failure) if failure.is_impossible() => Ok((slice, false)),

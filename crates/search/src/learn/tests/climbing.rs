@@ -170,7 +170,7 @@ fn the_gradient_of_particles_is_that_of_their_exact_bound() {
 #[test]
 fn a_climb_reaches_the_evidence() {
     for objective in ["bound", "particles"] {
-        let with = making(objective, &json!({}));
+        let with = making(objective, &json!({"seed": 10}));
         let result = climbed(TWO_WAYS, &with, None);
         let all = every_run(&task(TWO_WAYS), &result.guide);
         let evidence = log_sum_exp(all.iter().map(|(_, prior, score)| prior + score));
@@ -178,10 +178,7 @@ fn a_climb_reaches_the_evidence() {
         let reached = exact_bound(&densities(&all, net(&result.guide), with.share), runs);
         let prior: f64 = all.iter().map(|(_, prior, score)| prior.exp() * score).sum();
         // The prior has a gap of 0.19 nats; that of eight runs about an eighth of it.
-        assert!(
-            evidence - prior > 0.15 && evidence - reached < 0.015,
-            "{objective}: {reached} of {evidence}"
-        );
+        assert!(evidence - prior > 0.15 && evidence - reached < 0.01, "{objective}: {reached} of {evidence}");
         assert!(result.diverged.is_none() && result.lost.iter().all(|lost| *lost == [0, 0]));
         assert!(result.history.last().unwrap().best.0 < result.history[0].held_out);
     }
