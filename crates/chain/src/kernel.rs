@@ -37,6 +37,8 @@ impl Kernel {
     pub const PRIOR: Kernel = Kernel::Leaf(Proposer::Prior {});
     /// Exchanges between two choices of a site.
     pub const EXCHANGE: Kernel = Kernel::Leaf(Proposer::Exchange);
+    /// Moves of a choice that leave most parts of the scene in place.
+    pub const LINKAGE: Kernel = Kernel::Leaf(Proposer::Linkage);
 
     /// Whether the kernel or a part of it satisfies a predicate.
     pub fn any(&self, is: &impl Fn(&Kernel) -> bool) -> bool {

@@ -6,6 +6,7 @@ mod by_family;
 pub mod drift;
 mod exchange;
 pub mod guided;
+mod linkage;
 pub mod neighbour;
 mod regenerate;
 pub mod regrow;
@@ -17,6 +18,7 @@ use crate::leaf::by_family::ByFamily;
 use crate::leaf::drift::{Drift, Step};
 use crate::leaf::exchange::Exchange;
 use crate::leaf::guided::Guided;
+use crate::leaf::linkage::Linkage;
 use crate::leaf::neighbour::Neighbour;
 use crate::leaf::regenerate::Regenerate;
 use crate::leaf::regrow::Regrow;
@@ -58,6 +60,9 @@ pub enum Proposer {
     /// Two real choices of a site, whose sum stays.
     #[serde(skip)]
     Exchange,
+    /// A real choice with others that keep most parts of the scene in place.
+    #[serde(skip)]
+    Linkage,
     /// A single choice, from a distribution that a model function computes from the value.
     #[serde(skip)]
     Proposal(Arc<User>),
@@ -97,6 +102,7 @@ impl Proposer {
             Proposer::Regrow(regrow) => target.kept(&mut **regrow),
             Proposer::HmcStep(trajectory) | Proposer::NutsStep(trajectory) => target.kept(&mut **trajectory),
             Proposer::Exchange => target.kept(&mut Exchange),
+            Proposer::Linkage => target.kept(&mut Linkage),
             Proposer::Proposal(proposal) => target.single(&mut UserMove(proposal)),
             Proposer::Guided(guided) => target.kept(&mut **guided),
         }

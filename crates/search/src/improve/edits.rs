@@ -7,8 +7,8 @@ use niwaki_math::{RngCore, Stream, StreamKey};
 use niwaki_run::fresh::Fresh;
 use niwaki_run::weights::index;
 use niwaki_run::{Failure, Task};
-use niwaki_vm::machine::kept::levels::{Iterations, Moved, Within};
-use niwaki_vm::machine::kept::part::Part;
+use niwaki_vm::machine::kept::levels::{Iterations, Moved, Recursion, Within};
+use niwaki_vm::machine::kept::part::{Part, Piece};
 use niwaki_vm::machine::kept::{Change, Trace};
 use niwaki_vm::value::{Value, identical};
 use serde::{Deserialize, Serialize};
@@ -35,6 +35,9 @@ pub(super) enum Form {
     Stretch,
     /// A truth value is turned.
     Turn,
+    /// A truth value is turned, and a real of the level of a recursion that it belongs to slides. So what the truth value brings begins at
+    /// another place, and what comes after stays.
+    Slide,
     /// The iterations of a loop move by one.
     Shift,
     /// A recursion has a level more or less.
@@ -42,7 +45,7 @@ pub(super) enum Form {
 }
 
 impl Form {
-    const ALL: [Form; 5] = [Form::Count, Form::Stretch, Form::Turn, Form::Shift, Form::Level];
+    const ALL: [Form; 6] = [Form::Count, Form::Stretch, Form::Turn, Form::Slide, Form::Shift, Form::Level];
 }
 
 /// How many edits of each form were made, and how many of these were kept.
@@ -83,6 +86,8 @@ pub(super) struct Edit {
     pub form: Form,
     /// The number of runs that were made to find the values.
     pub runs: u64,
+    /// A choice that slides: it moves, and others with it so that most parts stay.
+    pub slide: Option<usize>,
 }
 
 /// Draws an edit of a run, of a form whose edits were kept, in at most so many `ways`. `None` if the run has nothing to edit.
@@ -111,6 +116,7 @@ pub(super) fn draw(
     let is_there = |form: &Form| match form {
         Form::Count | Form::Stretch => !counts.is_empty(),
         Form::Turn => !truths.is_empty(),
+        Form::Slide => !truths.is_empty() && !recursions.is_empty(),
         Form::Shift => !shiftable.is_empty(),
         Form::Level => !recursions.is_empty(),
     };
@@ -120,9 +126,16 @@ pub(super) fn draw(
     }
     let shares: Vec<f64> = forms.iter().map(|form| tries.share(*form)).collect();
     let form = forms[index(&shares, rng.uniform())];
-    let edit = |values, runs| Ok(Some(Edit { ways: vec![values], form, runs }));
+    let edit = |values, runs| Ok(Some(Edit { ways: vec![values], form, runs, slide: None }));
     let mut values: Values = state.choices(program).collect();
     match form {
+        Form::Slide => {
+            let choice = truths[below(rng, truths.len())];
+            turn(&mut values, trace.address(program, choice), rng);
+            let level = around(task, trace, &recursions, choice, rng);
+            let slide = level.and_then(|pair| real_of(task, trace, pair.above, rng));
+            Ok(Some(Edit { ways: vec![values], form, runs: 0, slide }))
+        }
         Form::Count | Form::Stretch | Form::Turn => {
             let discrete = if form == Form::Turn { truths } else { counts };
             let choice = discrete[below(rng, discrete.len())];
@@ -151,12 +164,22 @@ pub(super) fn draw(
             let by = |(levels, now): &(&Iterations, usize)| *now as isize - levels.parts.len() as isize;
             let shifts: Vec<Shift> =
                 changed.iter().map(|pair| Shift { levels: pair.0, by: by(pair) }).collect();
-            Ok(Some(Edit { ways: shifted(&values, task, trace, &shifts, ways, rng), form, runs: 1 }))
+            Ok(Some(Edit {
+                ways: shifted(&values, task, trace, &shifts, ways, rng),
+                form,
+                runs: 1,
+                slide: None,
+            }))
         }
         Form::Shift => {
             let levels = shiftable[below(rng, shiftable.len())];
             let shift = Shift { levels, by: if rng.uniform() < 0.5 { 1 } else { -1 } };
-            Ok(Some(Edit { ways: shifted(&values, task, trace, &[shift], ways, rng), form, runs: 0 }))
+            Ok(Some(Edit {
+                ways: shifted(&values, task, trace, &[shift], ways, rng),
+                form,
+                runs: 0,
+                slide: None,
+            }))
         }
         Form::Level => {
             let pair = &recursions[below(rng, recursions.len())];
@@ -182,6 +205,39 @@ pub(super) fn draw(
             edit(values, 0)
         }
     }
+}
+
+/// The innermost level of a recursion that a choice belongs to, and a level below it; the choice is not in the latter.
+fn around<'a>(
+    task: &Task,
+    trace: &Trace,
+    recursions: &'a [Recursion],
+    choice: usize,
+    rng: &mut Stream,
+) -> Option<&'a Recursion> {
+    let size = |pair: &Recursion| {
+        let part = trace.moved(&task.program, pair.above, 0, &Within::Without(pair.below)).choices;
+        part.iter().any(|(_, n)| *n == choice).then_some(part.len())
+    };
+    let sizes: Vec<(usize, &Recursion)> =
+        recursions.iter().filter_map(|pair| Some((size(pair)?, pair))).collect();
+    let least = sizes.iter().map(|(size, _)| *size).min()?;
+    let inner: Vec<&Recursion> =
+        sizes.into_iter().filter(|(size, _)| *size == least).map(|(_, pair)| pair).collect();
+    Some(inner[below(rng, inner.len())])
+}
+
+/// A real choice of the first activation of a part, drawn evenly.
+fn real_of(task: &Task, trace: &Trace, part: Part, rng: &mut Stream) -> Option<usize> {
+    let mut reals = vec![];
+    trace.pieces(&task.program, part, |piece| {
+        if let Piece::Choice(n) = piece
+            && matches!(trace.choice(&task.program, n).0, Value::Real(_))
+        {
+            reals.push(n);
+        }
+    });
+    (!reals.is_empty()).then(|| reals[below(rng, reals.len())])
 }
 
 /// The addresses of the real choices that are in no iteration of these loops.
@@ -495,6 +551,34 @@ mod tests {
             shorter += usize::from(after + 1 == before && first + last >= after && last > 0);
         }
         assert!(longer > 40 && shorter > 40, "{longer} {shorter}");
+    }
+
+    #[test]
+    fn a_slide_is_of_the_level_whose_truth_value_turns() {
+        let task = task(RECURSIVE);
+        let (mut slides, mut above) = (0, 0);
+        for seed in 0..600 {
+            let (state, _) = State::start(&task, Streams::new(seed, 0), 1, None).expect("a run");
+            let mut rng = Stream::new(seed, 1, 2, 3);
+            let tries = Tries::default();
+            let edit = draw(&task, &state, &tries, 3, &mut rng).expect("no fault").expect("an edit");
+            let (trace, program) = (&state.trace, &*task.program);
+            let Some(slide) = edit.slide else { continue };
+            let differs = |n: &usize| {
+                let value = edit.ways[0].get(&trace.address(program, *n));
+                value.is_some_and(|value| !identical(value, trace.choice(program, *n).0))
+            };
+            let turned: Vec<String> =
+                trace.numbers().filter(differs).map(|n| trace.path(program, n)).collect();
+            let [turned] = &turned[..] else { panic!("{turned:?}") };
+            let levels = |path: &str| path.split('/').filter(|word| *word == "link").count();
+            let real = trace.path(program, slide);
+            assert!(real.ends_with("/x") && !real.contains("side"), "{real}");
+            assert_eq!(levels(&real), levels(turned), "{real} {turned}");
+            slides += 1;
+            above += usize::from(turned.contains("side"));
+        }
+        assert!(slides > 30 && above > 10, "{slides} {above}");
     }
 
     #[test]

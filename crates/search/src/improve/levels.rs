@@ -52,8 +52,20 @@ impl Search<'_> {
                 work = self.slice;
                 break;
             };
-            let Edit { ways, form, runs } = edit;
+            let Edit { mut ways, form, runs, slide } = edit;
             let chain_seed = rng.next_u64();
+            if let Some(choice) = slide {
+                let mut chain = self.chain(kernel, present, chain_seed, 3)?;
+                let slides = chain.slides(self.task, choice, most, &mut rng)?;
+                work += chain.work();
+                present = chain.into_state();
+                let slid = |moves| ways[0].clone().into_iter().chain(moves).collect();
+                ways = slides.into_iter().map(slid).collect::<Vec<Values>>();
+            }
+            if ways.is_empty() {
+                self.tries.note(form, false);
+                continue;
+            }
             let (edited, tries) = self.best_way(&ways, chain_seed)?;
             work += (runs + tries) * length;
             let Some(Way { state: edited, new }) = edited else {

@@ -7,9 +7,9 @@
 
 use niwaki_chain::walk::state::State;
 use niwaki_chain::walk::streams::Streams;
-use niwaki_geom::Vec3;
 use niwaki_geom::solids::shape::Shape;
 use niwaki_geom::voxel::Grid;
+use niwaki_geom::{Solid, Vec3};
 use niwaki_run::inside::Inside;
 use niwaki_run::replay::by_address;
 use niwaki_run::run::Run;
@@ -26,11 +26,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// The least work of a search with an effort of 1: about a second of a processor.
 pub(super) const FLOOR: u64 = 3_000_000_000;
 /// A step of a particle, without the model's instructions and shapes.
-const STEP: u64 = 12_000;
+const STEP: u64 = 9_000;
 /// An instruction of the model.
 const INSTRUCTION: u64 = 5;
 /// A corner of a box that stands along the axes.
 const ALIGNED_CORNER: u64 = 500;
+/// A corner of any other shape whose faces are known from its kind.
+const PRISM_CORNER: u64 = 1_000;
 /// A corner of any other shape.
 const CORNER: u64 = 3_000;
 /// A cell of the box of a shape that is not convex, which a fill looks at, and a cell of the box of one of its triangles, which is
@@ -68,6 +70,10 @@ fn of_shape(shape: &Shape, task: &Task) -> u64 {
     let corners = mesh.vertices().len() as u64;
     if shape.is_aligned_box() {
         return ALIGNED_CORNER * corners;
+    }
+    use Solid::{Box, Cylinder, TaperedBox, TaperedCylinder, Wedge};
+    if let Box(_) | TaperedBox(_) | Cylinder(_) | TaperedCylinder(_) | Wedge(_) = shape.solid() {
+        return PRISM_CORNER * corners;
     }
     // The cells of a cut are found by those of its solids, of which most are convex.
     if shape.convex().is_some() || shape.cut().is_some() {

@@ -1,14 +1,24 @@
 //! Levels: a loop has an iteration more or less, a recursion a level more or less, or a discrete choice is turned, and what stands is
 //! held. The edited run is improved by moves before it is compared with the run that it comes from.
 
-use super::{Arm, Form, Step, moves};
+use super::{Arm, Form, Sizes, Step, moves};
+use niwaki_chain::kernel::Kernel;
 use niwaki_math::{Family, Space};
 use niwaki_run::Task;
 use niwaki_vm::code::{Function, Mode, Place, Site, SiteKind, Source};
+use niwaki_vm::fault::Fault;
 use niwaki_vm::value::Value;
 
 pub(super) const LEVELS: Arm =
-    Arm { step: Step("levels"), suits: |_, task| may_have_levels(task), form: Form::Edits(moves::kernel) };
+    Arm { step: Step("levels"), suits: |_, task| may_have_levels(task), form: Form::Edits(kernel) };
+
+/// Linkages for each other move; a linkage makes as many proposals as the run has choices, and more.
+const LINKED: f64 = 0.01;
+
+/// The moves that improve an edited run.
+fn kernel(sizes: &Sizes) -> Result<Kernel, Fault> {
+    Ok(Kernel::Mixture(vec![(1.0, moves::kernel(sizes)?), (LINKED, Kernel::LINKAGE)]))
+}
 
 /// Whether a program has loops with choices or calls, or may have a choice of a whole number or a truth value.
 fn may_have_levels(task: &Task) -> bool {

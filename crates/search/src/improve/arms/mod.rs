@@ -4,6 +4,7 @@
 //! such a file and a row of [`ARMS`].
 
 mod levels;
+mod linkage;
 mod moves;
 mod population;
 mod regrow;
@@ -19,8 +20,8 @@ use std::sync::Arc;
 pub(super) use population::POPULATION;
 
 /// All arms. Each that suits the task has the next of the first rounds, in this order.
-const ARMS: [&Arm; 5] =
-    [&regrow::FEW, &moves::MOVES, &regrow::MANY, &levels::LEVELS, &population::POPULATION];
+const ARMS: [&Arm; 6] =
+    [&regrow::FEW, &moves::MOVES, &regrow::MANY, &linkage::LINKAGE, &levels::LEVELS, &population::POPULATION];
 
 /// The settings of a search that its arms use.
 pub(super) struct Sizes {
