@@ -24,7 +24,8 @@ class Improve(Method):
     """Search for one good run, which spends its work on the steps that gain most; it has no evidence and no weights.
 
     The search begins with a population. Rounds follow, each with a fifth of the population's work. A round grows parts
-    of the best run again by few or by many particles, moves single choices, edits levels, or starts another population.
+    of the best run again by few or by many particles, moves single choices, moves choices so that most parts of the
+    scene stay (linkages), edits levels, or starts another population.
     A part is grown by fresh particles, and the best of them replaces the part if it is better. An edit of levels turns
     a count, adds an iteration of a loop or a level of a recursion, or removes one; what stands keeps its values, and
     the edited run is improved by moves before it is compared. Kinds of steps with recent gains

@@ -302,8 +302,8 @@ class Round(NamedTuple):
     Attributes
     ----------
     step : str
-        The kind of step: "population", "start" (a run that was given), "restart", "regrow", "regrow more", "move" or
-        "levels".
+        The kind of step: "population", "start" (a run that was given), "restart", "regrow", "regrow more", "move",
+        "linkage" or "levels".
     work : int
         The number of particle-steps, of proposals, and of shapes that proposals placed or removed.
     best : float

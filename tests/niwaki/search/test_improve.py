@@ -57,7 +57,9 @@ def test_the_best_never_falls_and_is_the_result() -> None:
     assert bests[-1] > bests[0] + 1.0
     assert result.best.log_score == bests[-1]
     assert all(line.work > 0 for line in rounds)
-    assert {line.step for line in rounds} == {"population", "regrow", "regrow more", "move", "levels"}
+    steps = {"population", "regrow", "regrow more", "move", "linkage", "levels"}
+    assert {line.step for line in rounds} == steps
+    assert not any(line.parts for line in rounds if line.step in ("move", "linkage"))
     trace = result.best._trace.run
     assert (trace.log_score, trace.primitives) == (result.best.log_score, result.best.primitives)
 

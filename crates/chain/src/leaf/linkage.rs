@@ -30,7 +30,7 @@ use niwaki_vm::value::Value;
 use std::collections::HashMap;
 
 /// The most real choices of a run with linkages: their cost grows with the cube of this number.
-const CHOICES: usize = 64;
+pub const CHOICES: usize = 64;
 /// The number of moves by the same slopes.
 const MOVES: usize = 16;
 /// The points of a part, and their coordinates.

@@ -6,7 +6,7 @@ mod by_family;
 pub mod drift;
 mod exchange;
 pub mod guided;
-mod linkage;
+pub mod linkage;
 pub mod neighbour;
 mod regenerate;
 pub mod regrow;

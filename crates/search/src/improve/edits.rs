@@ -2,6 +2,7 @@
 //! else keeps its values, by address or moved with the level that it belongs to; what is new is drawn.
 
 use super::structure::below;
+use niwaki_chain::leaf::linkage::CHOICES as LINKED;
 use niwaki_chain::walk::state::State;
 use niwaki_math::{RngCore, Stream, StreamKey};
 use niwaki_run::fresh::Fresh;
@@ -35,8 +36,8 @@ pub(super) enum Form {
     Stretch,
     /// A truth value is turned.
     Turn,
-    /// A truth value is turned, and a real of the level of a recursion that it belongs to slides. So what the truth value brings begins at
-    /// another place, and what comes after stays.
+    /// A truth value is turned, and a real of the level that it belongs to slides. So what the truth value brings begins at another place,
+    /// and what comes after stays.
     Slide,
     /// The iterations of a loop move by one.
     Shift,
@@ -116,7 +117,10 @@ pub(super) fn draw(
     let is_there = |form: &Form| match form {
         Form::Count | Form::Stretch => !counts.is_empty(),
         Form::Turn => !truths.is_empty(),
-        Form::Slide => !truths.is_empty() && !recursions.is_empty(),
+        Form::Slide => {
+            let is_level = !recursions.is_empty() || !loops.is_empty();
+            !truths.is_empty() && is_level && of(|value| matches!(value, Value::Real(_))).len() <= LINKED
+        }
         Form::Shift => !shiftable.is_empty(),
         Form::Level => !recursions.is_empty(),
     };
@@ -132,8 +136,8 @@ pub(super) fn draw(
         Form::Slide => {
             let choice = truths[below(rng, truths.len())];
             turn(&mut values, trace.address(program, choice), rng);
-            let level = around(task, trace, &recursions, choice, rng);
-            let slide = level.and_then(|pair| real_of(task, trace, pair.above, rng));
+            let level = level_of(task, trace, &loops, &recursions, choice);
+            let slide = level.and_then(|level| real_of(task, trace, level, rng));
             Ok(Some(Edit { ways: vec![values], form, runs: 0, slide }))
         }
         Form::Count | Form::Stretch | Form::Turn => {
@@ -207,24 +211,22 @@ pub(super) fn draw(
     }
 }
 
-/// The innermost level of a recursion that a choice belongs to, and a level below it; the choice is not in the latter.
-fn around<'a>(
+/// The innermost level that a choice belongs to: an iteration of a loop, or a level of a recursion without those below it.
+fn level_of(
     task: &Task,
     trace: &Trace,
-    recursions: &'a [Recursion],
+    loops: &[Iterations],
+    recursions: &[Recursion],
     choice: usize,
-    rng: &mut Stream,
-) -> Option<&'a Recursion> {
-    let size = |pair: &Recursion| {
-        let part = trace.moved(&task.program, pair.above, 0, &Within::Without(pair.below)).choices;
-        part.iter().any(|(_, n)| *n == choice).then_some(part.len())
+) -> Option<Part> {
+    let iterations = loops.iter().flat_map(|levels| &levels.parts).map(|part| (*part, Within::All));
+    let calls = recursions.iter().map(|pair| (pair.above, Within::Without(pair.below)));
+    let size = |(part, within): &(Part, Within)| {
+        let choices = trace.moved(&task.program, *part, 0, within).choices;
+        choices.iter().any(|(_, n)| *n == choice).then_some(choices.len())
     };
-    let sizes: Vec<(usize, &Recursion)> =
-        recursions.iter().filter_map(|pair| Some((size(pair)?, pair))).collect();
-    let least = sizes.iter().map(|(size, _)| *size).min()?;
-    let inner: Vec<&Recursion> =
-        sizes.into_iter().filter(|(size, _)| *size == least).map(|(_, pair)| pair).collect();
-    Some(inner[below(rng, inner.len())])
+    let sizes = iterations.chain(calls).filter_map(|level| Some((size(&level)?, level.0)));
+    sizes.min_by_key(|(size, _)| *size).map(|(_, part)| part)
 }
 
 /// A real choice of the first activation of a part, drawn evenly.

@@ -4,8 +4,8 @@
 //! 1. *Begin* (`start`): populations of particles, until one has a possible run. Its cost is the unit of effort. A search that is given
 //!    a run begins there, and its unit is the cost of that many such runs.
 //! 2. *Rounds* (`rounds`) of a fifth of that unit. Each makes steps of one arm from the best run, and the arms (`arms`) share the
-//!    rounds by their latest gains: parts grown again by few or by many particles, moves of single choices, edits of
-//!    levels (`levels`, `edits`), and a new population.
+//!    rounds by their latest gains: parts grown again by few or by many particles, moves of single choices, moves with which most
+//!    parts stay (linkages), edits of levels (`levels`, `edits`), and a new population.
 //! 3. *Restarts* (`course`): a search has a few starts of equal work, and goes on from the best of them. Later, where no round has gained for
 //!    long, the next begins from a fresh population. The best of all is kept.
 //! 4. *End* after the given number of rounds; or when the time is over; or, without both, when the search has spent a floor of work

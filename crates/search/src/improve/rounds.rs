@@ -313,7 +313,8 @@ impl<'a> Search<'a> {
         if chain.best.score() > so_far {
             self.best = chain.best.get(&chain.state, self.task)?;
         }
-        let (work, parts) = (chain.work() - before, chain.counts.many.accepted);
+        let grows = kernel.any(&|kernel| matches!(kernel, Kernel::Leaf(Proposer::Regrow(_))));
+        let (work, parts) = (chain.work() - before, if grows { chain.counts.many.accepted } else { 0 });
         self.state = Some(chain.into_state());
         Ok((work, parts))
     }
