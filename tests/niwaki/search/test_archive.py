@@ -74,6 +74,16 @@ def numbers():
     return a
 
 
+@nw.model
+def ranked():
+    """Words of which each is far below the one before it, and eight numbers that every word needs right."""
+    word = choose(["best", "good", "bad"])
+    off = 0.0
+    for _ in range(8):
+        off += abs(uniform(0.0, 1.0) - 0.7)
+    factor(-20.0 * off - (200.0 if word == "bad" else 100.0 if word == "good" else 0.0))
+
+
 def seat():
     """A target that is a bit of every chair."""
     return solid(
@@ -148,6 +158,17 @@ def test_one_result_for_each_combination_of_choices() -> None:
     assert nw.search.named(by_label) == [[("Legs › kind", legs)] for legs, _ in pairs(result)]
     with pytest.raises(nw.InputError, match="legs/kind"):
         chairs(diverse=3, by=["legs/kin"])
+
+
+def test_a_kind_that_is_far_below_the_best_is_improved_too() -> None:
+    for seed in range(2):
+        method = nw.improve(30, 6, rounds=10, diverse=3, by=["word"], margin=None)
+        result = nw.run(ranked, method=method, seed=seed)
+        scores = {sample.choices["word"]: sample.log_score for sample in result}
+        # A run of the prior has -48 nats for its numbers.
+        most = {"best": 0.0, "good": -100.0, "bad": -200.0}
+        assert all(most[word] - 15.0 < score <= most[word] for word, score in scores.items())
+        assert scores.keys() == most.keys()
 
 
 @pytest.mark.filterwarnings("ignore:only 2 of")
