@@ -66,11 +66,12 @@ pub fn rows(convex: &Convex<'_>, grid: &Grid, cells: &CellBox) -> Rows {
         }
     }
     let inner = 3 - outer;
-    let mut polygon = Polygon::default();
+    let room = 2 * corners.len();
+    let mut polygon = Polygon { left: Vec::with_capacity(room), right: Vec::with_capacity(room) };
     let slices = if end.is_some() { 1 } else { count(outer) };
     let edges = if end.is_some() { vec![] } else { edges_of(&corners, convex) };
     let mut rows = vec![NOTHING; slices * count(inner)];
-    let mut slice: Vec<[f64; 2]> = Vec::with_capacity(2 * corners.len());
+    let mut slice: Vec<[f64; 2]> = Vec::with_capacity(room);
     for (o, rows) in rows.chunks_exact_mut(count(inner)).enumerate() {
         match end {
             Some(end) => slice.extend(corners.iter().filter(|p| p[0] == end).map(|p| [p[1], p[2]])),
