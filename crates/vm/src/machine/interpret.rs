@@ -262,6 +262,7 @@ impl<S: Scalar> Machine<'_, S> {
                         put!(to, check!(self.operate(state, keep, r!(), op, (a, b))));
                     }
                 }
+                Op::Field { to, a, name } => check!(self.field(state, keep, r!(), (to, a, name))),
                 Op::Neg { to, a } => {
                     let value = check!(ops::neg(get!(a)));
                     put!(to, charged!(value));
