@@ -89,7 +89,5 @@ fn gather<S: Scalar>(
 ) {
     let r = Registers { f, base, outer, scratch: 0 };
     into.clear();
-    for o in &f.operands[args.range()] {
-        into.push(r.get(state, scratch, *o).clone());
-    }
+    into.extend(f.operands[args.range()].iter().map(|o| r.get(state, scratch, *o).clone()));
 }
