@@ -24,7 +24,13 @@ impl Aabb {
     /// The smallest box around `points`.
     #[inline]
     pub fn around(points: impl IntoIterator<Item = Vec3>) -> Aabb {
-        points.into_iter().fold(Aabb::EMPTY, |b, p| Aabb { low: b.low.min(p), high: b.high.max(p) })
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        // Like `f64::min`, but in an instruction: the bounds are never without a value.
+        for p in points.into_iter().map(Vec3::to_array) {
+            low = std::array::from_fn(|a| if p[a] < low[a] { p[a] } else { low[a] });
+            high = std::array::from_fn(|a| if p[a] > high[a] { p[a] } else { high[a] });
+        }
+        Aabb { low: low.into(), high: high.into() }
     }
 
     /// The smallest box around two boxes.

@@ -5,6 +5,7 @@ use crate::topology::Topology;
 use crate::vector::Vec3;
 use std::cell::OnceCell;
 use std::sync::Arc;
+use wide::f64x2;
 
 /// A convex solid that is no box.
 #[derive(Debug)]
@@ -55,28 +56,32 @@ impl Hull {
         if sides % 2 == 1 {
             return Hull::new(vertices, topology);
         }
-        let faces = topology.faces[..sides / 2].iter().chain([&topology.faces[sides]]);
-        let normals = faces.map(|face| face_normal(face, &vertices)).collect::<Option<Vec<Vec3>>>()?;
-        Hull::of_parts(vertices, normals, topology)
+        let (count, mut points) = (vertices.len(), vertices);
+        points.reserve_exact(sides / 2 + 1);
+        for face in topology.faces[..sides / 2].iter().chain([&topology.faces[sides]]) {
+            points.push(face_normal(face, &points)?);
+        }
+        Hull::of_parts(points, count, topology)
     }
 
     fn over(vertices: Vec<Vec3>, topology: Arc<Topology>, flat_faces: bool) -> Option<Hull> {
-        let mut normals = Vec::with_capacity(topology.faces.len());
+        let (count, mut points) = (vertices.len(), vertices);
+        points.reserve_exact(topology.faces.len());
         for face in &topology.faces {
-            match face_normal(face, &vertices) {
-                Some(normal) => push_direction(&mut normals, normal),
+            match face_normal(face, &points) {
+                Some(normal) => push_direction(&mut points, count, normal),
                 None if flat_faces => {}
                 None => return None,
             }
         }
-        Hull::of_parts(vertices, normals, topology)
+        Hull::of_parts(points, count, topology)
     }
 
-    fn of_parts(vertices: Vec<Vec3>, normals: Vec<Vec3>, topology: Arc<Topology>) -> Option<Hull> {
-        let width = narrowest(&vertices[..topology.corners], &normals);
-        let points = [&vertices[..], &normals].concat().into();
+    /// A solid of so many vertices and of the normals after them.
+    fn of_parts(points: Vec<Vec3>, vertices: usize, topology: Arc<Topology>) -> Option<Hull> {
+        let width = narrowest(&points[..topology.corners], &points[vertices..]);
         let edges = OnceCell::new();
-        (width > 0.0).then_some(Hull { points, vertices: vertices.len(), topology, edges, width })
+        (width > 0.0).then(|| Hull { points: points.into(), vertices, topology, edges, width })
     }
 
     /// An upper bound of its bytes on the heap, with its edges.
@@ -120,7 +125,7 @@ impl Hull {
             let mut edges = Vec::new();
             for [a, b] in &self.topology.edges {
                 if let Some(direction) = (self.points[*b as usize] - self.points[*a as usize]).unit() {
-                    push_direction(&mut edges, direction);
+                    push_direction(&mut edges, 0, direction);
                 }
             }
             edges.into()
@@ -136,33 +141,35 @@ pub(crate) fn narrowest(corners: &[Vec3], normals: &[Vec3]) -> f64 {
 /// Extent of `points` along `axis`.
 #[inline]
 pub(crate) fn span(points: &[Vec3], axis: Vec3) -> (f64, f64) {
-    // Two points at a time, so that neither waits for the other.
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    let mut look = |k: usize, p: &Vec3| {
-        let along = p.dot(axis);
-        low[k] = if along < low[k] { along } else { low[k] };
-        high[k] = if along > high[k] { along } else { high[k] };
+    // Two points at a time are the two halves of a register of the processor.
+    let [x, y, z] = axis.to_array().map(f64x2::splat);
+    let (mut low, mut high) = (f64x2::splat(f64::INFINITY), f64x2::splat(f64::NEG_INFINITY));
+    let mut look = |p: &Vec3, q: &Vec3| {
+        let pair = |a, b| f64x2::new([a, b]);
+        let along = pair(p.x, q.x) * x + pair(p.y, q.y) * y + pair(p.z, q.z) * z;
+        (low, high) = (low.fast_min(along), high.fast_max(along));
     };
     let (pairs, rest) = points.as_chunks::<2>();
-    for [p, q] in pairs {
-        look(0, p);
-        look(1, q);
-    }
-    rest.iter().for_each(|p| look(0, p));
+    pairs.iter().for_each(|[p, q]| look(p, q));
+    rest.iter().for_each(|p| look(p, p));
+    let (low, high) = (low.to_array(), high.to_array());
     (low[0].min(low[1]), high[0].max(high[1]))
 }
 
 /// Newell's normal: exact for planar faces, a mean otherwise.
 fn face_normal(face: &[u32], vertices: &[Vec3]) -> Option<Vec3> {
-    let at = |i: usize| vertices[face[i % face.len()] as usize];
-    let origin = at(0);
-    (1..face.len() - 1).fold(Vec3::ZERO, |sum, i| sum + (at(i) - origin).cross(at(i + 1) - origin)).unit()
+    let origin = vertices[face[0] as usize];
+    let mut sides = face[1..].iter().map(|corner| vertices[*corner as usize] - origin);
+    let mut before = sides.next()?;
+    let add = |sum: Vec3, next: Vec3| sum + std::mem::replace(&mut before, next).cross(next);
+    sides.fold(Vec3::ZERO, add).unit()
 }
 
-/// Adds a direction, unless `directions` has it.
-fn push_direction(directions: &mut Vec<Vec3>, new: Vec3) {
+/// Adds a direction to those that begin at `first`, unless they have it.
+fn push_direction(points: &mut Vec<Vec3>, first: usize, new: Vec3) {
     // Parallel to within 1e-10 radians, in either direction.
-    if !directions.iter().any(|d| d.dot(new).abs() > 0.999_999 && d.cross(new).dot(d.cross(new)) < 1e-20) {
-        directions.push(new);
+    let is_new = |d: &Vec3| d.dot(new).abs() <= 0.999_999 || d.cross(new).dot(d.cross(new)) >= 1e-20;
+    if points[first..].iter().all(is_new) {
+        points.push(new);
     }
 }

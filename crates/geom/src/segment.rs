@@ -27,8 +27,10 @@ pub const SEGMENT_SIDES: usize = 10;
 /// Corners of the three rings, start first. The start lies on the bark, if the segment has one.
 pub(crate) fn corners(tube: &Tube) -> Option<Vec<Vec3>> {
     let (frames, onto) = (tube.frames(), tube.onto());
-    let around = || ring(SEGMENT_SIDES);
-    let mut corners: Vec<Vec3> = frames.iter().flat_map(|f| around().map(|turn| f.at(turn))).collect();
+    static TURNS: OnceLock<Vec<(f64, f64)>> = OnceLock::new();
+    let turns = TURNS.once(|| ring(SEGMENT_SIDES).collect());
+    let mut corners = Vec::with_capacity(3 * SEGMENT_SIDES);
+    frames.iter().for_each(|f| corners.extend(turns.iter().map(|turn| f.at(*turn))));
     if let Some(bark) = onto {
         let down = bark.down(frames[0].center)?;
         // Chords between points at this distance stay outside of the parent's inscribed polygon.

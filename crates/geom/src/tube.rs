@@ -80,8 +80,11 @@ impl Tube {
     /// A tube over the frames `[start, split, end]`, with its base on `onto`, if any.
     pub fn new(frames: [Frame; 3], onto: Option<Bark>) -> Tube {
         let [start, split, end] = frames;
-        let directions = |f: &Frame| [f.forward.to_array(), f.up.to_array()].concat();
-        let bits = |f: &Frame| directions(f).into_iter().map(f64::to_bits).collect::<Vec<u64>>();
+        let directions = |f: &Frame| {
+            let ([a, b, c], [d, e, f]) = (f.forward.to_array(), f.up.to_array());
+            [a, b, c, d, e, f]
+        };
+        let bits = |f: &Frame| directions(f).map(f64::to_bits);
         let straight = bits(&split) == bits(&end);
         let mut all = Vec::with_capacity(4 * FRAME);
         let mut push = |numbers: &[f64]| all.extend_from_slice(numbers);

@@ -2,7 +2,7 @@
 //!
 //! A brick without counts is not stored, so that equal counts are equal data.
 
-use super::brick::{Brick, Plane, Slab};
+use super::brick::{Brick, Plane, Slab, any};
 use super::layout::{Rows, both, bricks_of, parts};
 use super::sums::Sums;
 use crate::voxel::{CellBox, Voxels};
@@ -183,8 +183,10 @@ fn counted(
     let mut all = [BitCounts::default(); 2];
     rows.any_slab(voxels, |slab, cells| {
         let changed = change(slab, cells);
-        all[0].add(&changed);
-        all[1].add(&both(&changed, target, slab));
+        if any(&changed) {
+            all[0].add(&changed);
+            all[1].add(&both(&changed, target, slab));
+        }
         false
     });
     all.map(BitCounts::sum)

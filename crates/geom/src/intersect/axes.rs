@@ -29,8 +29,16 @@ pub fn middles_apart(a: &Convex<'_>, b: &Convex<'_>, between: Vec3, tolerance: f
 
 /// True when the solids overlap by no more than `tolerance` along a face normal of either.
 pub fn faces_apart(a: &Convex<'_>, b: &Convex<'_>, tolerance: f64) -> bool {
-    // The end faces come last, and flush shapes usually touch there.
-    a.normals().iter().rev().chain(b.normals().iter().rev()).any(|n| apart(a, b, *n, tolerance))
+    let [p, q] = [a, b].map(|solid| solid.normals().iter().rev());
+    p.chain(q).any(|n| apart(a, b, *n, tolerance))
+}
+
+/// True when the solids overlap by no more than `tolerance` along one of the last face normals of either.
+///
+/// The end faces come last, and flush shapes usually touch there.
+pub fn ends_apart(a: &Convex<'_>, b: &Convex<'_>, tolerance: f64) -> bool {
+    let [p, q] = [a, b].map(|solid| solid.normals().iter().rev().take(2));
+    p.chain(q).any(|n| apart(a, b, *n, tolerance))
 }
 
 /// True when the solids overlap by more than `tolerance`, scene units, in every direction.

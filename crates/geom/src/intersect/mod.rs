@@ -87,10 +87,12 @@ pub fn intersects(a: &Shape, b: &Shape, rule: Rule) -> bool {
     };
     let between = b.aabb().center() - a.aabb().center();
     !axes::middles_apart(&p, &q, between, tolerance)
-        && !axes::faces_apart(&p, &q, tolerance)
+        && !axes::ends_apart(&p, &q, tolerance)
         && match rule {
             Rule::Solid => any_piece(&p, |p| any_piece(&q, |q| axes::overlap(p, q, tolerance))),
-            Rule::Surface => triangles::cross(a, b, Crossing::Original),
+            Rule::Surface => {
+                !axes::faces_apart(&p, &q, tolerance) && triangles::cross(a, b, Crossing::Original)
+            }
         }
 }
 

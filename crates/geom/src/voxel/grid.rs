@@ -100,7 +100,8 @@ impl Grid {
         let (low, high) = (self.to_grid(bounds.low), self.to_grid(bounds.high));
         let mut cells = CellBox { low: [0; 3], high: [0; 3] };
         for a in 0..3 {
-            let (first, last) = ((low[a] - TOUCH).floor(), (high[a] + TOUCH).floor());
+            // What is at least zero is rounded down where it becomes a whole number.
+            let (first, last) = (low[a] - TOUCH, high[a] + TOUCH);
             if !(last >= 0.0 && first < self.dims[a] as f64) {
                 return None;
             }

@@ -75,8 +75,7 @@ impl Voxels {
             Kind::Block => (self.cells.low[0], self.cells.high[0]),
             Kind::Rows(rows) => {
                 let [_, y0, z0] = self.cells.low;
-                let (first, last) = rows.get(y - y0, z - z0);
-                (first as usize, last as usize)
+                rows.get(y - y0, z - z0)
             }
             Kind::Bits(bits) => {
                 return bits.word(column, y, z) & run(column, self.cells.low[0], self.cells.high[0]);
@@ -93,7 +92,14 @@ impl Voxels {
         let rows = &mut words[first % 8..=last % 8];
         match &self.kind {
             Kind::Block => rows.fill(run(column, self.cells.low[0], self.cells.high[0])),
-            _ => rows.iter_mut().zip(first..).for_each(|(word, y)| *word = self.word(column, y, z)),
+            Kind::Rows(runs) => {
+                let [_, y0, z0] = self.cells.low;
+                let line = runs.along_y(first - y0, z - z0);
+                rows.iter_mut().zip(line).for_each(|(word, (first, last))| *word = run(column, first, last));
+            }
+            Kind::Bits(_) => {
+                rows.iter_mut().zip(first..).for_each(|(word, y)| *word = self.word(column, y, z))
+            }
         }
         words
     }
@@ -122,10 +128,6 @@ impl Voxels {
 /// Bits of the word `column` for the cells `first..=last`.
 #[inline]
 fn run(column: usize, first: usize, last: usize) -> u64 {
-    let base = column * 64;
-    let (first, end) = (first.max(base), (last + 1).min(base + 64));
-    if first >= end {
-        return 0;
-    }
-    (u64::MAX >> (64 - (end - first))) << (first - base)
+    let from = |cell: usize| u64::MAX.checked_shl(cell.saturating_sub(64 * column) as u32).unwrap_or(0);
+    from(first) & !from(last + 1)
 }

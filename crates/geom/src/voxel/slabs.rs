@@ -25,8 +25,20 @@ pub struct Rows {
 impl Rows {
     /// The first and last x of the row that is the `y`-th and `z`-th of the box.
     #[inline]
-    pub fn get(&self, y: usize, z: usize) -> (u32, u32) {
-        self.rows[y * self.steps[0] + z * self.steps[1]]
+    pub fn get(&self, y: usize, z: usize) -> (usize, usize) {
+        let (first, last) = self.rows[y * self.steps[0] + z * self.steps[1]];
+        (first as usize, last as usize)
+    }
+
+    /// The rows of the `z`-th layer of the box from the `y`-th on, as far as they reach.
+    #[inline]
+    pub fn along_y(&self, y: usize, z: usize) -> impl Iterator<Item = (usize, usize)> {
+        let mut at = y * self.steps[0] + z * self.steps[1];
+        std::iter::from_fn(move || {
+            let (first, last) = *self.rows.get(at)?;
+            at += self.steps[0];
+            Some((first as usize, last as usize))
+        })
     }
 }
 
@@ -54,16 +66,18 @@ pub fn rows(convex: &Convex<'_>, grid: &Grid, cells: &CellBox) -> Rows {
         }
     }
     let inner = 3 - outer;
-    let mut polygon = Polygon::default();
+    let room = 2 * corners.len();
+    let mut polygon = Polygon { left: Vec::with_capacity(room), right: Vec::with_capacity(room) };
     let slices = if end.is_some() { 1 } else { count(outer) };
+    let edges = if end.is_some() { vec![] } else { edges_of(&corners, convex) };
     let mut rows = vec![NOTHING; slices * count(inner)];
-    let mut slice: Vec<[f64; 2]> = Vec::with_capacity(2 * corners.len());
+    let mut slice: Vec<[f64; 2]> = Vec::with_capacity(room);
     for (o, rows) in rows.chunks_exact_mut(count(inner)).enumerate() {
         match end {
             Some(end) => slice.extend(corners.iter().filter(|p| p[0] == end).map(|p| [p[1], p[2]])),
             None => {
                 let low = (cells.low[outer] + o) as f64 - TOUCH;
-                slice_of(&corners, convex, (low, low + 1.0 + 2.0 * TOUCH), &mut slice);
+                slice_of(&corners, &edges, (low, low + 1.0 + 2.0 * TOUCH), &mut slice);
             }
         }
         polygon.enclose(&slice);
@@ -90,16 +104,30 @@ fn end_of_prism(corners: &[Corner], convex: &Convex<'_>) -> Option<f64> {
     is_prism.then_some(corners[0][0])
 }
 
+/// An edge, and the ends of what it crosses of the first coordinate.
+struct Edge {
+    first: f64,
+    last: f64,
+    ends: [Corner; 2],
+}
+
+/// The edges of the solid between these corners.
+fn edges_of(corners: &[Corner], convex: &Convex<'_>) -> Vec<Edge> {
+    let edge = |&[a, b]: &[u32; 2]| {
+        let ends @ [a, b] = [corners[a as usize], corners[b as usize]];
+        let (first, last) = if a[0] < b[0] { (a[0], b[0]) } else { (b[0], a[0]) };
+        Edge { first, last, ends }
+    };
+    convex.topology().edges.iter().map(edge).collect()
+}
+
 /// Points whose hull is the slice of the solid between two planes across the first coordinate, seen along it.
-fn slice_of(corners: &[Corner], convex: &Convex<'_>, (low, high): (f64, f64), slice: &mut Vec<[f64; 2]>) {
+fn slice_of(corners: &[Corner], edges: &[Edge], (low, high): (f64, f64), slice: &mut Vec<[f64; 2]>) {
     slice.clear();
     slice.extend(corners.iter().filter(|p| low <= p[0] && p[0] <= high).map(|p| [p[1], p[2]]));
-    for [a, b] in &convex.topology().edges {
-        let (a, b) = (&corners[*a as usize], &corners[*b as usize]);
-        let (first, last) = if a[0] < b[0] { (a[0], b[0]) } else { (b[0], a[0]) };
-        if first >= high || last < low {
-            continue;
-        }
+    for &Edge { first, last, ends: [a, b] } in
+        edges.iter().filter(|edge| edge.first < high && edge.last >= low)
+    {
         for plane in [low, high] {
             if first < plane && plane <= last {
                 let t = (plane - a[0]) / (b[0] - a[0]);
@@ -115,6 +143,12 @@ fn turn(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
 }
 
+/// True when `p` comes before `q`: along v, then along x.
+#[inline]
+fn is_before(p: &[f64; 2], q: &[f64; 2]) -> bool {
+    p[0] < q[0] || (p[0] == q[0] && p[1] < q[1])
+}
+
 /// Both sides of a convex polygon, x as a function of v.
 #[derive(Default)]
 struct Polygon {
@@ -126,11 +160,14 @@ impl Polygon {
     /// Sets the sides to the hull of `points`: the points on either side of the line from the lowest to the highest, by the
     /// monotone chain (Andrew 1979).
     fn enclose(&mut self, points: &[[f64; 2]]) {
-        let order = |p: &[f64; 2], q: &[f64; 2]| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]));
-        let ends = points.iter().min_by(|p, q| order(p, q)).zip(points.iter().max_by(|p, q| order(p, q)));
         self.left.clear();
         self.right.clear();
-        let Some((first, last)) = ends else { return };
+        let Some(mut first) = points.first() else { return };
+        let mut last = first;
+        for p in points {
+            first = if is_before(p, first) { p } else { first };
+            last = if is_before(last, p) { p } else { last };
+        }
         self.left.push(*first);
         self.right.push(*first);
         for p in points {
@@ -142,7 +179,7 @@ impl Polygon {
             }
         }
         for (side, sign) in [(&mut self.left, 1.0), (&mut self.right, -1.0)] {
-            side[1..].sort_unstable_by(order);
+            side[1..].sort_unstable_by(|p, q| is_before(q, p).cmp(&is_before(p, q)));
             side.push(*last);
             let mut length = 1;
             for at in 1..side.len() {
@@ -163,16 +200,24 @@ impl Polygon {
         let (mut left, mut right) = (Side::new(&self.left, -1.0), Side::new(&self.right, 1.0));
         for (i, row) in rows.iter_mut().enumerate() {
             let from = (low + i) as f64 - TOUCH;
-            let (from, to) = (from.max(first[0]), (from + 1.0 + 2.0 * TOUCH).min(last[0]));
+            let to = from + 1.0 + 2.0 * TOUCH;
+            let (from, to) = (larger(from, first[0]), if to < last[0] { to } else { last[0] });
             if from <= to {
                 let (first, last) = (-left.farthest(from, to), right.farthest(from, to));
-                let (first, last) = ((first - TOUCH).floor(), (last + TOUCH).floor());
+                // What is at least zero is rounded down where it becomes a whole number.
+                let (first, last) = (first - TOUCH, last + TOUCH);
                 if last >= 0.0 && first < limit as f64 {
                     *row = (first.max(0.0) as u32, (last as u32).min(limit as u32 - 1));
                 }
             }
         }
     }
+}
+
+/// The larger of two numbers, in an instruction: unlike `f64::max` it is for numbers alone.
+#[inline]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 /// A side that is visited along v.
@@ -199,10 +244,10 @@ impl<'a> Side<'a> {
             if self.points[beyond][0] == high {
                 reaches_high.get_or_insert(beyond);
             }
-            best = best.max(self.sign * self.points[beyond][1]);
+            best = larger(best, self.sign * self.points[beyond][1]);
             beyond += 1;
         }
-        best.max(self.sign * self.at(reaches_high.unwrap_or(beyond), high))
+        larger(best, self.sign * self.at(reaches_high.unwrap_or(beyond), high))
     }
 
     /// x at `v`, where `next` is the first point not before it.

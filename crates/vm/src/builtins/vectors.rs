@@ -57,11 +57,14 @@ fn product<S: Scalar>(name: &str, v: &[S], w: &[S]) -> Result<S, Fault> {
 /// `vec(x, y)`, `vec(x, y, z)`, `vec(x, y, z, w)`; a `None` omits a component.
 pub fn vec<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let numbers = args.iter().filter(|arg| !matches!(arg, Value::None));
-    let parts: Vec<S> = numbers.map(|arg| real("vec", arg)).collect::<Result<_, _>>()?;
-    if parts.len() < 2 {
+    let (mut parts, mut count) = ([S::from_f64(0.0); 4], 0);
+    for (part, arg) in parts.iter_mut().zip(numbers) {
+        (*part, count) = (real("vec", arg)?, count + 1);
+    }
+    if count < 2 {
         return Err(Fault::bad_argument("`vec` takes 2 to 4 numbers"));
     }
-    Ok(Value::vector(&parts))
+    Ok(Value::vector(&parts[..count]))
 }
 
 /// The scalar product.

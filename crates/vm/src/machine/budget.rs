@@ -316,7 +316,15 @@ impl<S: Scalar> Machine<'_, S> {
         if x.is_plain() && y.is_plain() {
             return operate::values(op, x, y);
         }
-        let price = of_binary(op, x, y);
+        let price = match (x, y) {
+            // All vectors take the same memory.
+            (Value::Vector(_), Value::Vector(_) | Value::Real(_)) | (Value::Real(_), Value::Vector(_))
+                if matches!(op, Binary::Add | Binary::Sub | Binary::Mul | Binary::Div) =>
+            {
+                Price { steps: 0, bytes: Value::<S>::VECTOR_BYTES }
+            }
+            _ => of_binary(op, x, y),
+        };
         self.charge(state, keep, price)?;
         operate::values(op, r.get(state, &self.scratch, a), r.get(state, &self.scratch, b))
     }

@@ -7,7 +7,7 @@ use super::keep::{Keep, put};
 use super::registers::Registers;
 use super::state::State;
 use crate::builtins;
-use crate::code::Op;
+use crate::code::{Op, Operand};
 use crate::fault::Fault;
 use crate::value::{Closure, Dict, Record, Tuple, Value, index, iter_get, iter_len};
 use niwaki_math::Scalar;
@@ -15,6 +15,20 @@ use std::cmp::Ordering;
 use std::sync::Arc;
 
 impl<S: Scalar> Machine<'_, S> {
+    /// Reads a field of a record or a component of a vector.
+    #[inline(never)]
+    pub(super) fn field<K: Keep<S>>(
+        &mut self,
+        state: &mut State<S>,
+        keep: &mut K,
+        r: Registers<'_, S>,
+        (to, a, name): (Operand, Operand, u16),
+    ) -> Result<(), Fault> {
+        let value = index::field(r.get(state, &self.scratch, a), &r.f.names[name as usize])?;
+        put(keep, state, (&mut self.scratch, &mut self.holds_shared), r, to, value);
+        Ok(())
+    }
+
     /// Runs an instruction that `interpret` leaves to this file.
     #[inline(never)]
     pub(super) fn construct<K: Keep<S>>(
@@ -31,6 +45,7 @@ impl<S: Scalar> Machine<'_, S> {
             };
         }
         let (to, value) = match op {
+            Op::Field { to, a, name } => return self.field(state, keep, r, (to, a, name)),
             Op::List { to, args } => {
                 gather!(args);
                 (to, Value::list(self.buffer.drain(..).collect()))
@@ -50,9 +65,6 @@ impl<S: Scalar> Machine<'_, S> {
                 let fields = self.buffer.drain(..).collect();
                 let class = self.program.classes[class as usize].clone();
                 (to, Value::Record(Arc::new(Record { class, fields })))
-            }
-            Op::Field { to, a, name } => {
-                (to, index::field(r.get(state, &self.scratch, a), &f.names[name as usize])?)
             }
             Op::Closure { to, function, args } => {
                 gather!(args);
@@ -141,9 +153,7 @@ impl<S: Scalar> Machine<'_, S> {
             }
             other => unreachable!("`interpret` runs {other:?} itself"),
         };
-        if !matches!(op, Op::Field { .. }) {
-            self.charge(state, keep, Price { steps: 0, bytes: value.own_bytes() })?;
-        }
+        self.charge(state, keep, Price { steps: 0, bytes: value.own_bytes() })?;
         put(keep, state, (&mut self.scratch, &mut self.holds_shared), r, to, value);
         Ok(())
     }

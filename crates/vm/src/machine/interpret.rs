@@ -8,7 +8,7 @@ use super::operate;
 use super::outcome::Continuation;
 use super::outcome::Halt;
 use super::outcome::Stop;
-use super::registers::Registers;
+use super::registers::{Registers, proven};
 use super::state::{FutureId, NodeId, State};
 use super::workspace::{Here, Machine, PureCall};
 use crate::builtins;
@@ -236,7 +236,7 @@ impl<S: Scalar> Machine<'_, S> {
             if K::KEEPS {
                 executed += 1;
             }
-            match code[pc] {
+            match *proven(code, pc) {
                 Op::Move { to, from } => {
                     let value = get!(from).clone();
                     put!(to, value);
@@ -262,6 +262,7 @@ impl<S: Scalar> Machine<'_, S> {
                         put!(to, check!(self.operate(state, keep, r!(), op, (a, b))));
                     }
                 }
+                Op::Field { to, a, name } => check!(self.field(state, keep, r!(), (to, a, name))),
                 Op::Neg { to, a } => {
                     let value = check!(ops::neg(get!(a)));
                     put!(to, charged!(value));

@@ -1,4 +1,5 @@
 //! From operands to values: the registers of the current activation.
+#![allow(unsafe_code)] // What the verifier has held against lengths is not held against them again.
 
 use super::state::State;
 use crate::code::{Args, Function, Operand};
@@ -29,13 +30,13 @@ impl<'a, S: Scalar> Registers<'a, S> {
         'a: 'b,
     {
         if o.is_node() {
-            &state.registers[self.base.wrapping_add(o.0 as usize)]
+            proven(&state.registers, self.base.wrapping_add(o.0 as usize))
         } else if o.is_outer() {
-            &state.registers[self.outer.wrapping_add(o.index())]
+            proven(&state.registers, self.outer.wrapping_add(o.index()))
         } else if o.is_constant() {
-            &self.f.constants[o.index()]
+            proven(&self.f.constants, o.index())
         } else {
-            &scratch[self.scratch.wrapping_add(o.index())]
+            proven(scratch, self.scratch.wrapping_add(o.index()))
         }
     }
 
@@ -47,11 +48,13 @@ impl<'a, S: Scalar> Registers<'a, S> {
         scratch: &'b mut [Value<S>],
         o: Operand,
     ) -> &'b mut Value<S> {
-        if o.is_node() {
-            &mut state.registers[self.base.wrapping_add(o.0 as usize)]
-        } else {
-            &mut scratch[self.scratch.wrapping_add(o.index())]
-        }
+        let (values, at) = match o.is_node() {
+            true => (&mut state.registers[..], self.base.wrapping_add(o.0 as usize)),
+            false => (scratch, self.scratch.wrapping_add(o.index())),
+        };
+        debug_assert!(at < values.len(), "a register in range");
+        // SAFETY: as in `proven`.
+        unsafe { values.get_unchecked_mut(at) }
     }
 
     /// Copies a sequence of operands.
@@ -60,6 +63,17 @@ impl<'a, S: Scalar> Registers<'a, S> {
         let Registers { f, base, outer, .. } = self;
         gather(f, base, outer, state, &scratch[self.scratch..], args, into);
     }
+}
+
+/// An element whose place the verifier has proven: a register, a constant or an instruction.
+#[inline(always)]
+pub(super) fn proven<T>(values: &[T], at: usize) -> &T {
+    debug_assert!(at < values.len(), "a place in range");
+    // SAFETY: no program without `code::verify` reaches a machine. It has refused operands outside of the constants and registers
+    // of their function ("an operand out of range"); a node has all registers of its function (`State::new_node`), and the scratch
+    // stack those of each function that runs (`Machine::reserve`). Code is left only by its returns: it has refused "a jump out of
+    // the function" and control that "can run off the end".
+    unsafe { values.get_unchecked(at) }
 }
 
 /// [`Registers::gather`] with separate fields: see there.
@@ -75,7 +89,5 @@ fn gather<S: Scalar>(
 ) {
     let r = Registers { f, base, outer, scratch: 0 };
     into.clear();
-    for o in &f.operands[args.range()] {
-        into.push(r.get(state, scratch, *o).clone());
-    }
+    into.extend(f.operands[args.range()].iter().map(|o| r.get(state, scratch, *o).clone()));
 }

@@ -355,6 +355,15 @@ impl<S: Scalar> Vector<S> {
         Vector { components: self.components.map(f), len: self.len }
     }
 
+    /// Combines the components with those of another vector; `None` unless it has as many.
+    #[inline]
+    pub fn with(&self, other: &Vector<S>, f: impl Fn(S, S) -> S) -> Option<Vector<S>> {
+        let mut all = *self;
+        let parts = &mut all.components[..usize::from(self.len)];
+        parts.iter_mut().zip(&other.components).for_each(|(x, y)| *x = f(*x, *y));
+        (self.len == other.len).then_some(all)
+    }
+
     /// The component called `x`, `y`, `z` or `w`.
     pub fn field(&self, name: &str) -> Option<S> {
         let at = ["x", "y", "z", "w"].iter().position(|letter| *letter == name)?;

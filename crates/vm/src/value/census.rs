@@ -150,6 +150,9 @@ impl<'v, S: Scalar> Census<'v, S> {
 }
 
 impl<S: Scalar> Value<S> {
+    /// Bytes of the allocation behind a vector.
+    pub const VECTOR_BYTES: usize = shared::<super::Vector<S>>();
+
     /// Bytes of the allocation behind the value, or a little more, without the values that it holds. The cost
     /// is constant, except for mixtures.
     pub fn own_bytes(&self) -> usize {
@@ -164,7 +167,7 @@ impl<S: Scalar> Value<S> {
                 shared::<super::Closure<S>>() + items(closure.captures.len()) + closure.memo_bytes()
             }
             Value::Range(_) => shared::<super::Range>(),
-            Value::Vector(_) => shared::<super::Vector<S>>(),
+            Value::Vector(_) => Self::VECTOR_BYTES,
             Value::Rotation(_) => shared::<[S; 9]>(),
             Value::Shape(shape) => shape.bytes(),
             Value::Dist(dist) => shared::<super::Dist<S>>() + dist.bytes(),

@@ -198,6 +198,13 @@ impl<S: Scalar> List<S> {
 
     /// Adds an element at the end: in place when the list has one owner, else on a copy of the tail.
     pub fn append(&mut self, item: Value<S>) {
+        if Arc::get_mut(&mut self.0).is_none() {
+            // A copy with room for the element, so that the tail is allocated once.
+            let Body { len, shift, root, tail } = &*self.0;
+            let mut longer = Vec::with_capacity((tail.len() + 1).min(WIDTH));
+            longer.extend_from_slice(tail);
+            self.0 = Arc::new(Body { len: *len, shift: *shift, root: root.clone(), tail: longer });
+        }
         let body = Arc::make_mut(&mut self.0);
         if body.tail.len() == WIDTH {
             let start = body.tail_start();

@@ -388,16 +388,10 @@ fn div_slow<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
 
 /// Combines two vectors of equal length, component by component.
 fn componentwise<S: Scalar>(verb: &str, v: &Vector<S>, w: &Vector<S>, f: impl Fn(S, S) -> S) -> Answer<S> {
-    let (v, w) = (v.components(), w.components());
-    if v.len() != w.len() {
-        let (v, w) = (v.len(), w.len());
-        return Err(Fault::type_mismatch(format!("cannot {verb} vectors of {v} and {w} components")));
-    }
-    let mut parts = [S::from_f64(0.0); 4];
-    for (part, (x, y)) in parts.iter_mut().zip(v.iter().zip(w)) {
-        *part = f(*x, *y);
-    }
-    Ok(Value::vector(&parts[..v.len()]))
+    v.with(w, f).map(|sum| Value::Vector(Arc::new(sum))).ok_or_else(|| {
+        let (v, w) = (v.components().len(), w.components().len());
+        Fault::type_mismatch(format!("cannot {verb} vectors of {v} and {w} components"))
+    })
 }
 
 /// A rotation applied to a vector of three components.

@@ -74,13 +74,17 @@ impl<S: Scalar> Clone for Value<S> {
     }
 
     #[inline(always)]
+    #[allow(unsafe_code)]
     fn clone_from(&mut self, source: &Self) {
-        match source {
-            // Numbers are copied without a second test. Many registers are empty before and after.
-            Value::Real(x) => self.store_real(*x),
-            Value::Int(n) => self.store_int(*n),
-            Value::None if matches!(self, Value::None) => {}
-            other => self.store(other.clone_other()),
+        // Most registers of a copied run hold plain values, before and after.
+        if !self.is_plain() {
+            self.assign(source);
+        } else if source.is_plain() {
+            // SAFETY: both are valid and not the same, as one is borrowed for writing. A plain value owns nothing, so the
+            // old one needs no drop, and the bits of the other are a copy of it.
+            unsafe { std::ptr::copy_nonoverlapping(source, self, 1) };
+        } else {
+            self.replace(source.clone_other());
         }
     }
 }
@@ -118,6 +122,11 @@ impl<S: Scalar> Value<S> {
             Value::Dist(dist) => Value::Dist(dist.clone()),
             Value::Function(closure) => Value::Function(closure.clone()),
         }
+    }
+
+    #[inline(never)]
+    fn assign(&mut self, source: &Self) {
+        *self = source.clone();
     }
 
     /// Whether the value holds no shared data: a number, a truth value, `None`.
