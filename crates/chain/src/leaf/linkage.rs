@@ -14,7 +14,8 @@
 //! (Molecular Physics 1993); Nakamura, Hanafusa and Yoshikawa, "Task-priority based redundancy control of robot manipulators" (1987).
 //!
 //! The slopes of a run are not those of the run after a move, and no factor corrects this. So the step is for searches for the best, and no
-//! kernel of users.
+//! kernel of users. In a run with more than [`CHOICES`] real choices, or without a choice that moves two parts, a single choice is drawn from
+//! its prior.
 
 use crate::leaf::drift::normal;
 use crate::walk::proposal::FromPrior;
@@ -145,6 +146,7 @@ impl Slopes {
             Value::Real(x) => Some((choice, *x, chain.spreads[chain.counts.number(trace.site_of(choice))])),
             _ => None,
         };
+        let real = |choice| real(choice).filter(|(.., spread)| *spread > 0.0 && spread.is_finite());
         let mut choices: Vec<(usize, f64, f64)> = trace.numbers().filter_map(real).collect();
         if choices.len() > CHOICES {
             choices.clear();

@@ -164,6 +164,12 @@ impl State {
         choices(&self.trace, program)
     }
 
+    /// The number of its real choices.
+    pub fn reals(&self, program: &Program) -> usize {
+        let is_real = |n: &usize| matches!(self.trace.choice(program, *n).0, Value::Real(_));
+        self.trace.numbers().filter(is_real).count()
+    }
+
     /// Convert the state after `visit` proposals to a finished run.
     pub fn run(&self, program: &Program, visit: u64) -> Run {
         Run { log: self.choices(program).collect(), value: self.trace.result(), ..self.scores(visit) }

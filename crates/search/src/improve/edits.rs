@@ -2,7 +2,7 @@
 //! else keeps its values, by address or moved with the level that it belongs to; what is new is drawn.
 
 use super::structure::below;
-use niwaki_chain::leaf::linkage::CHOICES as LINKED;
+use niwaki_chain::leaf::linkage::CHOICES;
 use niwaki_chain::walk::state::State;
 use niwaki_math::{RngCore, Stream, StreamKey};
 use niwaki_run::fresh::Fresh;
@@ -119,7 +119,7 @@ pub(super) fn draw(
         Form::Turn => !truths.is_empty(),
         Form::Slide => {
             let is_level = !recursions.is_empty() || !loops.is_empty();
-            !truths.is_empty() && is_level && of(|value| matches!(value, Value::Real(_))).len() <= LINKED
+            !truths.is_empty() && is_level && state.reals(program) <= CHOICES
         }
         Form::Shift => !shiftable.is_empty(),
         Form::Level => !recursions.is_empty(),

@@ -242,17 +242,20 @@ impl<'a> Search<'a> {
         Ok((arm.step, work, parts))
     }
 
-    /// The index of the next arm: first each once, then by their latest gains.
+    /// The index of the next arm among those for such a run: first each once, then by their latest gains.
     fn pick(&self, rng: &mut Stream) -> usize {
-        if let Some(new) = self.tallies.iter().position(|tally| tally.gain.is_none()) {
-            return new;
+        let reals = self.state.as_ref().map_or(0, |state| state.reals(&self.task.program));
+        let mut able: Vec<usize> = (0..self.tallies.len()).collect();
+        able.retain(|at| self.tallies[*at].arm.most_reals >= reals);
+        if let Some(new) = able.iter().find(|at| self.tallies[**at].gain.is_none()) {
+            return *new;
         }
-        let gains: Vec<f64> = self.tallies.iter().filter_map(|tally| tally.gain).collect();
+        let gains: Vec<f64> = able.iter().filter_map(|at| self.tallies[*at].gain).collect();
         let u = rng.uniform();
         if gains.iter().all(|gain| *gain <= 0.0) || u < EVEN {
-            return (0..gains.len()).min_by_key(|index| self.tallies[*index].spent).unwrap_or(0);
+            return able.into_iter().min_by_key(|at| self.tallies[*at].spent).unwrap_or(0);
         }
-        index(&gains, (u - EVEN) / (1.0 - EVEN))
+        able[index(&gains, (u - EVEN) / (1.0 - EVEN))]
     }
 
     /// Makes another population, with a seed of its own. Returns its work.

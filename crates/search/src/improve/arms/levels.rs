@@ -9,8 +9,12 @@ use niwaki_vm::code::{Function, Mode, Place, Site, SiteKind, Source};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::value::Value;
 
-pub(super) const LEVELS: Arm =
-    Arm { step: Step("levels"), suits: |_, task| may_have_levels(task), form: Form::Edits(kernel) };
+pub(super) const LEVELS: Arm = Arm {
+    step: Step("levels"),
+    suits: |_, task| may_have_levels(task),
+    most_reals: usize::MAX,
+    form: Form::Edits(kernel),
+};
 
 /// Linkages for each other move; a linkage makes as many proposals as the run has choices, and more.
 const LINKED: f64 = 0.01;

@@ -41,6 +41,8 @@ pub(super) struct Arm {
     pub step: Step,
     /// Whether it suits a task.
     pub suits: fn(&Sizes, &Task) -> bool,
+    /// The most real choices of a run for which it makes steps.
+    pub most_reals: usize,
     /// The form of its steps.
     pub form: Form,
 }

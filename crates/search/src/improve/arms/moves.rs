@@ -5,7 +5,8 @@ use niwaki_chain::kernel::Kernel;
 use niwaki_vm::fault::Fault;
 use serde_json::json;
 
-pub(super) const MOVES: Arm = Arm { step: Step("move"), suits: |_, _| true, form: Form::Chain(kernel, 32) };
+pub(super) const MOVES: Arm =
+    Arm { step: Step("move"), suits: |_, _| true, most_reals: usize::MAX, form: Form::Chain(kernel, 32) };
 
 pub(super) fn kernel(_: &Sizes) -> Result<Kernel, Fault> {
     let drift = |step| leaf("drift", json!({"step": step, "target": 0.44}));

@@ -3,8 +3,12 @@
 use super::{Arm, Form, Sizes, Step};
 use niwaki_particles::Settings;
 
-pub(crate) const POPULATION: Arm =
-    Arm { step: Step("population"), suits: |_, _| true, form: Form::Population(settings) };
+pub(crate) const POPULATION: Arm = Arm {
+    step: Step("population"),
+    suits: |_, _| true,
+    most_reals: usize::MAX,
+    form: Form::Population(settings),
+};
 
 fn settings(sizes: &Sizes) -> Settings {
     let proposal = sizes.drawn_by.clone();

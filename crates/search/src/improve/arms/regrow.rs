@@ -12,12 +12,17 @@ const TURN: f64 = 0.7;
 /// Factor of the number of particles in rounds of "regrow more".
 const MORE: usize = 5;
 
-pub(super) const FEW: Arm =
-    Arm { step: Step("regrow"), suits: has_parts, form: Form::Chain(|sizes| kernel(sizes, sizes.regrow), 1) };
+pub(super) const FEW: Arm = Arm {
+    step: Step("regrow"),
+    suits: has_parts,
+    most_reals: usize::MAX,
+    form: Form::Chain(|sizes| kernel(sizes, sizes.regrow), 1),
+};
 
 pub(super) const MANY: Arm = Arm {
     step: Step("regrow more"),
     suits: has_parts,
+    most_reals: usize::MAX,
     form: Form::Chain(|sizes| kernel(sizes, MORE * sizes.regrow), 1),
 };
 
