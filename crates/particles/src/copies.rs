@@ -50,8 +50,8 @@ pub(super) struct Indexed<'a> {
 
 impl Copies {
     /// Register a resampling in which particle `i` survives `counts[i]` times, and update the ancestry.
-    pub fn plan(counts: &[usize], ancestry: &mut Ancestry) -> Copies {
-        let moves = further_copies(counts);
+    pub fn plan(counts: Vec<usize>, ancestry: &mut Ancestry) -> Copies {
+        let moves = further_copies(&counts);
         let lineage = ancestry.lineages;
         // Lineages are assigned in this order, whatever thread copies.
         ancestry.lineages += moves.len() as u64;
@@ -59,11 +59,7 @@ impl Copies {
             ancestry.first[to] = ancestry.first[parent];
         }
         let threads = Vec::new();
-        if moves.is_empty() {
-            Copies::default()
-        } else {
-            Copies { counts: counts.to_vec(), moves, threads, lineage }
-        }
+        if moves.is_empty() { Copies::default() } else { Copies { counts, moves, threads, lineage } }
     }
 
     /// Assign each copy to a thread: the thread of its parent, or another thread if a large family would overload it.

@@ -227,7 +227,7 @@ impl Particles for Population<'_> {
         });
         self.estimate.log_normaliser += log_mean;
         self.counts.resampled += 1;
-        self.swarm.copy(Copies::plan(&copies, &mut self.ancestry), seed);
+        self.swarm.copy(Copies::plan(copies, &mut self.ancestry), seed);
         // The first copy keeps the index of its parent.
         Ok(held)
     }

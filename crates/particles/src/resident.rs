@@ -139,12 +139,15 @@ pub(super) fn counted(
     if particle.state.value_bytes() > values_to_recount(before) {
         machine.recount(&mut particle.state);
     }
-    let activations = particle.state.own_bytes() as isize;
-    let grown = activations - std::mem::replace(&mut particle.bytes, activations);
     let values = particle.state.value_bytes().saturating_sub(before);
-    growth.activations += grown;
     growth.values += values;
-    growth.up += values + grown.max(0) as usize;
+    growth.up += values;
+    let activations = particle.state.own_bytes() as isize;
+    if activations != particle.bytes {
+        let grown = activations - std::mem::replace(&mut particle.bytes, activations);
+        growth.activations += grown;
+        growth.up += grown.max(0) as usize;
+    }
     Ok(())
 }
 

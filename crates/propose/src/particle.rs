@@ -65,13 +65,14 @@ impl Turn<'_> {
     /// Draw the place of a future by the order policy, with the random stream of the lineage.
     #[inline(always)]
     pub fn pick(self, seed: u64, lineage: u64) -> usize {
-        match self.state.runnable().len() {
-            0 | 1 => 0,
-            _ => {
-                let u = Stream::new(seed, lineage, u128::from(self.picks + 1), ORDER).uniform();
-                self.past.pick(self.state, u)
-            }
-        }
+        if self.state.runnable().len() < 2 { 0 } else { self.draw(seed, lineage) }
+    }
+
+    // Inlined, the key of the stream would be made for each run of a particle.
+    #[inline(never)]
+    fn draw(self, seed: u64, lineage: u64) -> usize {
+        let u = Stream::new(seed, lineage, u128::from(self.picks + 1), ORDER).uniform();
+        self.past.pick(self.state, u)
     }
 }
 

@@ -14,6 +14,9 @@ use std::vec::Drain;
 /// The most recent entries before they are frozen: a list that grows without copies would be half empty.
 const BLOCK: usize = 64;
 
+/// The room of the first recent entries.
+const ROOM: usize = 16;
+
 /// An entry: a choice with its address and value.
 #[derive(Clone, Debug)]
 pub struct Entry {
@@ -90,10 +93,21 @@ impl Log {
     /// Add a choice.
     #[inline]
     pub fn push(&mut self, address: u128, value: Value) {
-        if self.recent.len() == BLOCK {
-            self.freeze();
+        if self.recent.len() == self.recent.capacity() {
+            self.make_room();
         }
         self.recent.push(Entry::new(address, value));
+    }
+
+    /// Make room for a recent entry: some, then for a block, which is frozen when it is full.
+    #[cold]
+    #[inline(never)]
+    fn make_room(&mut self) {
+        match self.recent.len() {
+            BLOCK.. => self.freeze(),
+            ROOM.. => self.recent.reserve_exact(BLOCK - self.recent.len()),
+            few => self.recent.reserve_exact(ROOM - few),
+        }
     }
 
     /// Add an order choice: the place of the future that ran among the runnable futures.

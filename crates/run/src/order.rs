@@ -145,7 +145,14 @@ impl Past {
     }
 
     /// Register the runnable futures before a turn: new futures were created by the future that ran last.
+    #[inline(always)]
     pub fn look(&mut self, program: &Program, state: &State) {
+        if self.policy.is_some() {
+            self.look_by_policy(program, state);
+        }
+    }
+
+    fn look_by_policy(&mut self, program: &Program, state: &State) {
         let Some(policy) = &self.policy else { return };
         let depth = self.last.map_or(0, |_| self.last_depth + 1);
         for id in state.runnable().iter() {

@@ -87,11 +87,11 @@ const ROUNDED: f64 = 1e-6;
 /// end is known where no point is that near.
 fn place(weights: &[f64], total: f64, off: f64, at: impl Fn(usize) -> f64) -> Vec<usize> {
     let n = weights.len();
-    let mut copies = vec![0; n];
     let last = weights.iter().rposition(|w| *w > 0.0).unwrap_or(0);
     let (mut cumulative, mut before) = (0.0, 0);
     let (scale, offset) = (n as f64 / total, n as f64 * at(0));
-    for (copies, weight) in copies[..last].iter_mut().zip(weights) {
+    let mut copies = Vec::with_capacity(n);
+    copies.extend(weights[..last].iter().map(|weight| {
         cumulative += weight;
         let is_within = |k: usize| at(k) * total <= cumulative;
         let about = cumulative * scale - offset + 1.0;
@@ -101,9 +101,10 @@ fn place(weights: &[f64], total: f64, off: f64, at: impl Fn(usize) -> f64) -> Ve
         if is_near && (within < n && is_within(within) || within > before && !is_within(within - 1)) {
             within = before + count(before..n, is_within);
         }
-        (*copies, before) = (within - before, within);
-    }
-    copies[last] = n - before;
+        within - std::mem::replace(&mut before, within)
+    }));
+    copies.push(n - before);
+    copies.resize(n, 0);
     copies
 }
 
@@ -129,19 +130,19 @@ fn multinomial(weights: &[f64], draws: usize, random: &mut Stream) -> Vec<usize>
 /// Parent and index of each further copy, parents ascending. The sum of `copies` is at most their number.
 pub fn further_copies(copies: &[usize]) -> Vec<(usize, usize)> {
     // Counts are noise, so a jump that depends on one is mostly guessed wrong: what is written too early is written again.
-    let n = copies.len();
-    let (mut parents, mut free) = (vec![0; n + 1], vec![0; n + 1]);
+    let mut moves = vec![(0, 0); copies.len() + 1];
     let (mut further, mut dead) = (0, 0);
     for (index, &count) in copies.iter().enumerate() {
-        parents[further] = index;
+        moves[further].0 = index;
         if count > 2 {
-            parents[further..further + count - 1].fill(index);
+            moves[further..further + count - 1].iter_mut().for_each(|(parent, _)| *parent = index);
         }
         further += count.saturating_sub(1);
-        free[dead] = index;
+        moves[dead].1 = index;
         dead += usize::from(count == 0);
     }
-    parents[..further].iter().copied().zip(free[..dead].iter().copied()).collect()
+    moves.truncate(further.min(dead));
+    moves
 }
 
 /// Borrow two different particles.

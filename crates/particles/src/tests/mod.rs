@@ -129,7 +129,7 @@ fn copies_are_the_same_in_batches() {
         population.advance(None).unwrap();
         let mut ancestry = Ancestry::of(40);
         let particles = population.swarm.alone();
-        let mut copies = Copies::plan(&counts, &mut ancestry);
+        let mut copies = Copies::plan(counts.clone(), &mut ancestry);
         match batches {
             None => copies.make(particles, 5),
             Some((size, threads)) => {

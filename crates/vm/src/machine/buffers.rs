@@ -13,6 +13,9 @@ pub(super) fn copy<T: Clone>(to: &mut Vec<T>, from: &[T]) {
     }
 }
 
+/// The least room in bytes that a growing vector gets: doubled from the start, most would move again and again.
+const SMALL: usize = 512;
+
 /// The size in bytes from which a growing vector gets all the room that it may need.
 const LARGE: usize = 1 << 20;
 
@@ -20,7 +23,10 @@ const LARGE: usize = 1 << 20;
 /// take no memory, while a vector that doubles is in memory twice when it moves.
 #[inline]
 pub(super) fn make_room<T>(vector: &mut Vec<T>, more: usize, spare: impl FnOnce() -> usize) {
-    if vector.capacity() - vector.len() < more && vector.len() * size_of::<T>() >= LARGE {
+    if vector.capacity() - vector.len() < more {
+        if vector.len() * size_of::<T>() < LARGE {
+            return vector.reserve(more.max(SMALL / size_of::<T>()));
+        }
         let room = (spare() / size_of::<T>()).max(more);
         // If so much room is not available, the vector grows as usual.
         let _ = vector.try_reserve_exact(room);
