@@ -22,7 +22,7 @@ from searches.problems import Case, Problem, problem
 from searches.seeds import PILOT
 
 #: Errors that say that no run was possible.
-DEAD = ("everything-impossible", "no-start")
+DEAD = ("everything-impossible", "no-start", "obstacle-at-start")
 #: A size whose cost is within this factor of the budget is scaled once more, not measured once more.
 NEAR = 1.5
 #: Most by which a size is made larger and smaller at once. Searches that died cost next to nothing, so that their sizes
