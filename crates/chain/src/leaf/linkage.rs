@@ -21,7 +21,7 @@ use crate::leaf::drift::normal;
 use crate::walk::proposal::FromPrior;
 use crate::walk::streams::below;
 use crate::walk::{ChainMove, Proposing, Walk};
-use niwaki_continuous::hamiltonian::metric::cholesky;
+use niwaki_continuous::hamiltonian::metric::{cholesky, solve};
 use niwaki_geom::{Primitive, Vec3};
 use niwaki_math::Stream;
 use niwaki_run::{Failure, Task};
@@ -213,7 +213,7 @@ impl Slopes {
             matrix[i * count + i] += COST * mean;
         }
         matrix[first * count + first] = 1.0;
-        let mut moves = solve(&cholesky(&matrix)?, right);
+        let mut moves = solve(&cholesky(&matrix)?, &right);
         moves[first] = amount;
         Some(moves)
     }
@@ -228,20 +228,6 @@ fn add_products(products: &mut [f64], rows: &[f64], sign: f64) {
             line.iter_mut().zip(row).for_each(|(sum, b)| *sum += sign * a * b);
         }
     }
-}
-
-/// The solution of `L L^T x = b`.
-fn solve(l: &[f64], mut x: Vec<f64>) -> Vec<f64> {
-    let n = x.len();
-    for i in 0..n {
-        let known: f64 = (0..i).map(|j| l[i * n + j] * x[j]).sum();
-        x[i] = (x[i] - known) / l[i * n + i];
-    }
-    for i in (0..n).rev() {
-        let known: f64 = (i + 1..n).map(|j| l[j * n + i] * x[j]).sum();
-        x[i] = (x[i] - known) / l[i * n + i];
-    }
-    x
 }
 
 /// The slopes of a part's points, scene units for a spread, from two places of it. `None` if points of the two do not belong to each

@@ -165,6 +165,21 @@ pub fn cholesky(matrix: &[f64]) -> Option<Vec<f64>> {
     Some(l)
 }
 
+/// `x` with `L L^T x = b`, for the lower triangle `L` by rows.
+pub fn solve(l: &[f64], b: &[f64]) -> Vec<f64> {
+    let n = b.len();
+    let mut x = b.to_vec();
+    for i in 0..n {
+        let sum: f64 = (0..i).map(|j| l[i * n + j] * x[j]).sum();
+        x[i] = (x[i] - sum) / l[i * n + i];
+    }
+    for i in (0..n).rev() {
+        let sum: f64 = (i + 1..n).map(|j| l[j * n + i] * x[j]).sum();
+        x[i] = (x[i] - sum) / l[i * n + i];
+    }
+    x
+}
+
 #[cfg(test)]
 mod tests {
     //! Momentum and velocity belong to the same matrix: `E[v v^T] = M^-1`.

@@ -8,7 +8,7 @@
 //!
 //! Sums run in the order of the examples, so equal examples give equal bits.
 
-use niwaki_continuous::hamiltonian::metric::cholesky;
+use niwaki_continuous::hamiltonian::metric::{cholesky, solve};
 
 /// Exponents of the strengths, which are powers of ten.
 const EXPONENTS: std::ops::RangeInclusive<i32> = -6..=1;
@@ -90,21 +90,6 @@ pub(super) fn ridge(learned: &Examples, judging: &Examples) -> Option<Line> {
     let lines = EXPONENTS.filter_map(at_strength).map(|line| (judges.error(&line), line));
     let best = lines.filter(|(error, _)| error.is_finite()).min_by(|(a, _), (b, _)| a.total_cmp(b));
     best.map(|(_, line)| line)
-}
-
-/// `x` with `L L^T x = b`.
-fn solve(l: &[f64], b: &[f64]) -> Vec<f64> {
-    let n = b.len();
-    let mut x = b.to_vec();
-    for i in 0..n {
-        let sum: f64 = (0..i).map(|j| l[i * n + j] * x[j]).sum();
-        x[i] = (x[i] - sum) / l[i * n + i];
-    }
-    for i in (0..n).rev() {
-        let sum: f64 = (i + 1..n).map(|j| l[j * n + i] * x[j]).sum();
-        x[i] = (x[i] - sum) / l[i * n + i];
-    }
-    x
 }
 
 #[cfg(test)]
