@@ -25,8 +25,9 @@ use niwaki_continuous::hamiltonian::metric::{cholesky, solve};
 use niwaki_geom::{Primitive, Vec3};
 use niwaki_math::Stream;
 use niwaki_run::{Failure, Task};
+use niwaki_vm::code::Program;
 use niwaki_vm::machine::Machine;
-use niwaki_vm::machine::kept::{Change, Changed, Proposed};
+use niwaki_vm::machine::kept::{Change, Changed, Proposed, Trace};
 use niwaki_vm::value::Value;
 use std::collections::HashMap;
 
@@ -56,8 +57,8 @@ pub struct Linkage;
 
 /// The slopes of parts by choices.
 struct Slopes {
-    /// The number, the value and the spread of each choice.
-    choices: Vec<(usize, f64, f64)>,
+    /// The number and the spread of each choice.
+    choices: Vec<(usize, f64)>,
     /// For each choice the parts that it moves, in the order of the run.
     moved: Vec<Vec<usize>>,
     /// For each part its rows: the slopes of its coordinates by the choices, scene units for a spread.
@@ -69,7 +70,7 @@ struct Slopes {
 impl ChainMove for Linkage {
     fn apply(&mut self, proposing: Proposing<'_, '_>) -> Result<(), Failure> {
         let Proposing { chain, task, machine, table, beta } = proposing;
-        let mut slopes = Slopes::of(chain, task, machine)?;
+        let slopes = Slopes::of(chain, task, machine)?;
         let linked: Vec<usize> = (0..slopes.choices.len()).filter(|i| slopes.moved[*i].len() > 1).collect();
         if linked.is_empty() {
             return chain.single(task, machine, &mut FromPrior, table, beta);
@@ -83,7 +84,7 @@ impl ChainMove for Linkage {
             let Some(moves) = slopes.moves(first, amount, &mut rng) else { continue };
             let program = &*task.program;
             let (mut changes, mut before) = (vec![], vec![]);
-            for (choice, x, value) in slopes.moved_by(&moves) {
+            for (choice, x, value) in slopes.moved_by(&moves, &chain.state.trace, program) {
                 before.push((chain.state.trace.address(program, choice), Value::Real(x)));
                 changes.push(Changed { choice, proposed: Proposed { value, forward: 0.0, backward: 0.0 } });
             }
@@ -92,9 +93,6 @@ impl ChainMove for Linkage {
                 |chain: &Walk| if has_same_choices(chain, task) { 0.0 } else { f64::NEG_INFINITY };
             let decision = chain.decide(task, change, beta, &mut rng, selection, before)?;
             chain.count_many(decision);
-            if decision.accepted {
-                slopes.choices.iter_mut().zip(&moves).for_each(|((_, x, spread), by)| *x += *spread * by);
-            }
         }
         Ok(())
     }
@@ -114,17 +112,25 @@ impl Walk {
         rng: &mut Stream,
     ) -> Result<Vec<Vec<(u128, Value)>>, Failure> {
         let slopes = Slopes::of(self, task, &mut task.machine())?;
-        let first = slopes.choices.iter().position(|(number, ..)| *number == choice);
+        let first = slopes.choices.iter().position(|(number, _)| *number == choice);
         let Some(first) = first.filter(|first| slopes.moved[*first].len() > 1) else { return Ok(vec![]) };
         let (trace, program) = (&self.state.trace, &*task.program);
         let mut slides = vec![];
         for _ in 0..count {
             let amount = FARTHEST * (2.0 * rng.uniform() - 1.0);
             let Some(moves) = slopes.moves(first, amount, rng) else { continue };
-            let moved = slopes.moved_by(&moves);
+            let moved = slopes.moved_by(&moves, trace, program);
             slides.push(moved.map(|(choice, _, value)| (trace.address(program, choice), value)).collect());
         }
         Ok(slides)
+    }
+}
+
+/// The value of a real choice.
+fn real(trace: &Trace, program: &Program, choice: usize) -> Option<f64> {
+    match trace.choice(program, choice).0 {
+        Value::Real(x) => Some(*x),
+        _ => None,
     }
 }
 
@@ -142,22 +148,22 @@ impl Slopes {
     fn of(chain: &mut Walk, task: &Task, machine: &mut Machine<'_>) -> Result<Slopes, Failure> {
         let program = &*task.program;
         let trace = &chain.state.trace;
-        let real = |choice| match trace.choice(program, choice).0 {
-            Value::Real(x) => Some((choice, *x, chain.spreads[chain.counts.number(trace.site_of(choice))])),
-            _ => None,
-        };
-        let real = |choice| real(choice).filter(|(.., spread)| *spread > 0.0 && spread.is_finite());
-        let mut choices: Vec<(usize, f64, f64)> = trace.numbers().filter_map(real).collect();
+        let spread = |choice: usize| chain.spreads[chain.counts.number(trace.site_of(choice))];
+        let is_real = |choice: &usize| real(trace, program, *choice).is_some();
+        let reals = trace.numbers().filter(is_real).map(|choice| (choice, spread(choice)));
+        let mut choices: Vec<(usize, f64)> =
+            reals.filter(|(_, spread)| *spread > 0.0 && spread.is_finite()).collect();
         if choices.len() > CHOICES {
             choices.clear();
         }
         let count = choices.len();
         let (mut moved, mut parts, mut numbers) = (vec![], vec![], HashMap::new());
-        for (column, (choice, x, spread)) in choices.iter().enumerate() {
+        for (column, (choice, spread)) in choices.iter().enumerate() {
             let visit = chain.visit;
             chain.visit += 1;
-            let small = SMALL * spread;
-            let proposed = Proposed { value: Value::Real(x + small), forward: 0.0, backward: 0.0 };
+            let x = real(&chain.state.trace, program, *choice).unwrap_or(f64::NAN);
+            let value = Value::Real(x + SMALL * spread);
+            let proposed = Proposed { value, forward: 0.0, backward: 0.0 };
             let change = chain.change(task, machine, visit, vec![Changed { choice: *choice, proposed }])?;
             let mut list = vec![];
             if change == Change::Done && has_same_choices(chain, task) {
@@ -182,10 +188,19 @@ impl Slopes {
         Ok(Slopes { choices, moved, parts, products })
     }
 
-    /// The numbers, the values and the new values of the choices that these moves change.
-    fn moved_by(&self, moves: &[f64]) -> impl Iterator<Item = (usize, f64, Value)> {
+    /// The numbers, the values and the new values of the choices that these moves change. A choice may have been drawn anew since the slopes
+    /// were found.
+    fn moved_by(
+        &self,
+        moves: &[f64],
+        trace: &Trace,
+        program: &Program,
+    ) -> impl Iterator<Item = (usize, f64, Value)> {
         let all = self.choices.iter().zip(moves).filter(|(_, by)| by.abs() > LEAST);
-        all.map(|((choice, x, spread), by)| (*choice, *x, Value::Real(x + spread * by)))
+        all.filter_map(|((choice, spread), by)| {
+            let x = real(trace, program, *choice)?;
+            Some((*choice, x, Value::Real(x + spread * by)))
+        })
     }
 
     /// The moves of all choices, spreads, for a move of the choice `first` by `amount` that some of the parts that it moves may follow.
@@ -330,9 +345,10 @@ mod tests {
         let before = places(&chain, &task);
         let count = slopes.choices.len();
         assert_eq!((count, slopes.parts.len()), (16, 8));
-        for (column, (choice, x, _)) in slopes.choices.iter().enumerate() {
+        for (column, (choice, _)) in slopes.choices.iter().enumerate() {
             let mut values: HashMap<u128, Value> = chain.state.choices(&task.program).collect();
             let address = chain.state.trace.address(&task.program, *choice);
+            let x = real(&chain.state.trace, &task.program, *choice).expect("a real");
             values.insert(address, Value::Real(x + 1e-6));
             let after = places(&chain_at(&task, 3, Some(&values)), &task);
             for part in &slopes.moved[column] {
@@ -396,5 +412,35 @@ mod tests {
             moved += usize::from(changed > 0);
         }
         assert!(moved > 50, "{moved}");
+    }
+
+    /// A chain whose lengths are below the length before: a move may leave the support of a later choice, which is then drawn anew.
+    const SHORTER: &str = r#"(module (fn "m" (params)
+        (set $x 0.0) (set $l 3.0)
+        (for $i (range 6) (body
+            (set $l (sample (dist uniform 0.0 (mul $l 1.1))))
+            (set $x (add $x $l))
+            (do (factor (mul -1.0 (abs (sub $x (mul 1.2 $i))))))
+            (do (emit (box (vec $x 0.0 0.0) (vec 0.2 0.2 0.2))))))
+        (return $x)) (entry "m"))"#;
+
+    #[test]
+    fn the_best_run_has_the_choices_of_its_score() {
+        let task = task(SHORTER);
+        let mut improved = 0;
+        for seed in 0..40 {
+            let mut chain = chain_at(&task, seed, None);
+            let first = chain.state.log_score();
+            chain.advance(&task, 600, &mut |_, _| true).expect("no fault");
+            let score = chain.best.score();
+            improved += usize::from(score > first);
+            let walk = &mut *chain;
+            let best = walk.best.get(&walk.state, &task).expect("a run");
+            let values: HashMap<u128, Value> =
+                best.log.entries().iter().map(|entry| (entry.address(), entry.value.clone())).collect();
+            let (again, _) = State::start(&task, Streams::new(seed, 1), 1, Some(&values)).expect("a run");
+            assert_eq!(again.log_score().to_bits(), score.to_bits());
+        }
+        assert!(improved > 30, "{improved}");
     }
 }
