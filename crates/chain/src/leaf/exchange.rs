@@ -38,10 +38,7 @@ impl ChainMove for Exchange {
             return Ok(());
         }
         let first = below(&mut rng, trace.len() as u64) as usize;
-        let real = |choice: usize| match trace.choice(program, choice).0 {
-            Value::Real(x) => Some(*x),
-            _ => None,
-        };
+        let real = |choice| chain.state.real(program, choice);
         let pair = partner(trace, first, &mut rng)
             .and_then(|second| Some([(first, real(first)?), (second, real(second)?)]));
         let Some(pair) = pair else {
@@ -57,11 +54,7 @@ impl ChainMove for Exchange {
             changes.push(Changed { choice, proposed });
         }
         let change = chain.change(task, machine, visit, changes)?;
-        let selection = |chain: &Walk| {
-            let trace = &chain.state.trace;
-            let is_same = trace.births(program).len() == 0 && trace.deaths().is_empty();
-            if is_same { 0.0 } else { f64::NEG_INFINITY }
-        };
+        let selection = |chain: &Walk| chain.with_same_choices(program);
         let decision = chain.decide(task, change, beta, &mut rng, selection, moved)?;
         chain.count_many(decision);
         Ok(())

@@ -19,6 +19,7 @@
 
 use crate::leaf::drift::normal;
 use crate::walk::proposal::FromPrior;
+use crate::walk::state::State;
 use crate::walk::streams::below;
 use crate::walk::{ChainMove, Proposing, Walk};
 use niwaki_continuous::hamiltonian::metric::{cholesky, solve};
@@ -27,7 +28,7 @@ use niwaki_math::Stream;
 use niwaki_run::{Failure, Task};
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::Machine;
-use niwaki_vm::machine::kept::{Change, Changed, Proposed, Trace};
+use niwaki_vm::machine::kept::{Change, Changed, Proposed};
 use niwaki_vm::value::Value;
 use std::collections::HashMap;
 
@@ -84,13 +85,12 @@ impl ChainMove for Linkage {
             let Some(moves) = slopes.moves(first, amount, &mut rng) else { continue };
             let program = &*task.program;
             let (mut changes, mut before) = (vec![], vec![]);
-            for (choice, x, value) in slopes.moved_by(&moves, &chain.state.trace, program) {
+            for (choice, x, value) in slopes.moved_by(&moves, &chain.state, program) {
                 before.push((chain.state.trace.address(program, choice), Value::Real(x)));
                 changes.push(Changed { choice, proposed: Proposed { value, forward: 0.0, backward: 0.0 } });
             }
             let change = chain.change(task, machine, visit, changes)?;
-            let selection =
-                |chain: &Walk| if has_same_choices(chain, task) { 0.0 } else { f64::NEG_INFINITY };
+            let selection = |chain: &Walk| chain.with_same_choices(program);
             let decision = chain.decide(task, change, beta, &mut rng, selection, before)?;
             chain.count_many(decision);
         }
@@ -119,25 +119,11 @@ impl Walk {
         for _ in 0..count {
             let amount = FARTHEST * (2.0 * rng.uniform() - 1.0);
             let Some(moves) = slopes.moves(first, amount, rng) else { continue };
-            let moved = slopes.moved_by(&moves, trace, program);
+            let moved = slopes.moved_by(&moves, &self.state, program);
             slides.push(moved.map(|(choice, _, value)| (trace.address(program, choice), value)).collect());
         }
         Ok(slides)
     }
-}
-
-/// The value of a real choice.
-fn real(trace: &Trace, program: &Program, choice: usize) -> Option<f64> {
-    match trace.choice(program, choice).0 {
-        Value::Real(x) => Some(*x),
-        _ => None,
-    }
-}
-
-/// Whether the open transaction has neither added nor removed choices.
-fn has_same_choices(chain: &Walk, task: &Task) -> bool {
-    let trace = &chain.state.trace;
-    trace.births(&task.program).len() == 0 && trace.deaths().is_empty()
 }
 
 impl Slopes {
@@ -149,7 +135,7 @@ impl Slopes {
         let program = &*task.program;
         let trace = &chain.state.trace;
         let spread = |choice: usize| chain.spreads[chain.counts.number(trace.site_of(choice))];
-        let is_real = |choice: &usize| real(trace, program, *choice).is_some();
+        let is_real = |choice: &usize| chain.state.real(program, *choice).is_some();
         let reals = trace.numbers().filter(is_real).map(|choice| (choice, spread(choice)));
         let mut choices: Vec<(usize, f64)> =
             reals.filter(|(_, spread)| *spread > 0.0 && spread.is_finite()).collect();
@@ -161,12 +147,12 @@ impl Slopes {
         for (column, (choice, spread)) in choices.iter().enumerate() {
             let visit = chain.visit;
             chain.visit += 1;
-            let x = real(&chain.state.trace, program, *choice).unwrap_or(f64::NAN);
+            let x = chain.state.real(program, *choice).unwrap_or(f64::NAN);
             let value = Value::Real(x + SMALL * spread);
             let proposed = Proposed { value, forward: 0.0, backward: 0.0 };
             let change = chain.change(task, machine, visit, vec![Changed { choice: *choice, proposed }])?;
             let mut list = vec![];
-            if change == Change::Done && has_same_choices(chain, task) {
+            if change == Change::Done && chain.with_same_choices(program) == 0.0 {
                 let trace = &chain.state.trace;
                 let (old, new) = trace.exchanged();
                 for (old, new) in old.iter().zip(new).filter(|_| old.len() == new.len()) {
@@ -193,12 +179,12 @@ impl Slopes {
     fn moved_by(
         &self,
         moves: &[f64],
-        trace: &Trace,
+        state: &State,
         program: &Program,
     ) -> impl Iterator<Item = (usize, f64, Value)> {
         let all = self.choices.iter().zip(moves).filter(|(_, by)| by.abs() > LEAST);
         all.filter_map(|((choice, spread), by)| {
-            let x = real(trace, program, *choice)?;
+            let x = state.real(program, *choice)?;
             Some((*choice, x, Value::Real(x + spread * by)))
         })
     }
@@ -290,9 +276,9 @@ mod tests {
     use super::*;
     use crate::kernel::Kernel;
     use crate::plan::Plan;
-    use crate::walk::state::State;
     use crate::walk::streams::Streams;
     use crate::{Chain, Settings};
+    use niwaki_run::replay::by_address;
     use niwaki_vm::core::parse::parse;
     use niwaki_vm::machine::kept::inspect::Item;
     use niwaki_vm::passes::compile;
@@ -348,7 +334,7 @@ mod tests {
         for (column, (choice, _)) in slopes.choices.iter().enumerate() {
             let mut values: HashMap<u128, Value> = chain.state.choices(&task.program).collect();
             let address = chain.state.trace.address(&task.program, *choice);
-            let x = real(&chain.state.trace, &task.program, *choice).expect("a real");
+            let x = chain.state.real(&task.program, *choice).expect("a real");
             values.insert(address, Value::Real(x + 1e-6));
             let after = places(&chain_at(&task, 3, Some(&values)), &task);
             for part in &slopes.moved[column] {
@@ -436,8 +422,7 @@ mod tests {
             improved += usize::from(score > first);
             let walk = &mut *chain;
             let best = walk.best.get(&walk.state, &task).expect("a run");
-            let values: HashMap<u128, Value> =
-                best.log.entries().iter().map(|entry| (entry.address(), entry.value.clone())).collect();
+            let values = by_address(&best.log.entries());
             let (again, _) = State::start(&task, Streams::new(seed, 1), 1, Some(&values)).expect("a run");
             assert_eq!(again.log_score().to_bits(), score.to_bits());
         }

@@ -111,6 +111,14 @@ impl Walk {
         self.visit
     }
 
+    /// The log probability of choosing a move after the open transaction, less the one before, for moves of several choices by number: a run
+    /// that gets or loses choices is rejected, as its numbers change.
+    pub(crate) fn with_same_choices(&self, program: &Program) -> f64 {
+        let trace = &self.state.trace;
+        let is_same = trace.births(program).len() == 0 && trace.deaths().is_empty();
+        if is_same { 0.0 } else { f64::NEG_INFINITY }
+    }
+
     /// The present state.
     pub fn now(&self, program: &Program) -> Run {
         self.state.run(program, self.visit)

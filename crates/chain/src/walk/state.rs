@@ -164,10 +164,17 @@ impl State {
         choices(&self.trace, program)
     }
 
+    /// The value of a real choice; `None` for any other.
+    pub(crate) fn real(&self, program: &Program, choice: usize) -> Option<f64> {
+        match self.trace.choice(program, choice).0 {
+            Value::Real(x) => Some(*x),
+            _ => None,
+        }
+    }
+
     /// The number of its real choices.
     pub fn reals(&self, program: &Program) -> usize {
-        let is_real = |n: &usize| matches!(self.trace.choice(program, *n).0, Value::Real(_));
-        self.trace.numbers().filter(is_real).count()
+        self.trace.numbers().filter(|n| self.real(program, *n).is_some()).count()
     }
 
     /// Convert the state after `visit` proposals to a finished run.

@@ -130,7 +130,7 @@ pub(super) fn draw(
     }
     let shares: Vec<f64> = forms.iter().map(|form| tries.share(*form)).collect();
     let form = forms[index(&shares, rng.uniform())];
-    let edit = |values, runs| Ok(Some(Edit { ways: vec![values], form, runs, slide: None }));
+    let edit = |ways, runs| Ok(Some(Edit { ways, form, runs, slide: None }));
     let mut values: Values = state.choices(program).collect();
     match form {
         Form::Slide => {
@@ -146,7 +146,7 @@ pub(super) fn draw(
             let address = trace.address(program, choice);
             turn(&mut values, address, rng);
             // Loops that are longer or shorter in the turned run, where a value that is drawn stays.
-            let Some(turned) = bare_run(task, &values, rng)? else { return edit(values, 1) };
+            let Some(turned) = bare_run(task, &values, rng)? else { return edit(vec![values], 1) };
             let place = turned.numbers().find(|n| turned.address(program, *n) == address);
             values.extend(place.map(|n| (address, turned.choice(program, n).0.clone())));
             let lengths: HashMap<u128, usize> =
@@ -163,27 +163,17 @@ pub(super) fn draw(
                 if !outside.is_empty() {
                     values.remove(&outside[below(rng, outside.len())]);
                 }
-                return edit(values, 1);
+                return edit(vec![values], 1);
             }
             let by = |(levels, now): &(&Iterations, usize)| *now as isize - levels.parts.len() as isize;
             let shifts: Vec<Shift> =
                 changed.iter().map(|pair| Shift { levels: pair.0, by: by(pair) }).collect();
-            Ok(Some(Edit {
-                ways: shifted(&values, task, trace, &shifts, ways, rng),
-                form,
-                runs: 1,
-                slide: None,
-            }))
+            edit(shifted(&values, task, trace, &shifts, ways, rng), 1)
         }
         Form::Shift => {
             let levels = shiftable[below(rng, shiftable.len())];
             let shift = Shift { levels, by: if rng.uniform() < 0.5 { 1 } else { -1 } };
-            Ok(Some(Edit {
-                ways: shifted(&values, task, trace, &[shift], ways, rng),
-                form,
-                runs: 0,
-                slide: None,
-            }))
+            edit(shifted(&values, task, trace, &[shift], ways, rng), 0)
         }
         Form::Level => {
             let pair = &recursions[below(rng, recursions.len())];
@@ -200,13 +190,13 @@ pub(super) fn draw(
                 let within =
                     if rng.uniform() < COPIED { Within::Without(below) } else { Within::Between(below) };
                 let mut twice = moved(above, from, &within);
-                let Some(place) = twice.below else { return edit(values, 0) };
+                let Some(place) = twice.below else { return edit(vec![values], 0) };
                 let mut down = moved(below, place, &Within::All);
                 take(&mut values, task, trace, &moved(below, from, &Within::All));
                 put(&mut values, task, trace, &mut twice);
                 put(&mut values, task, trace, &mut down);
             }
-            edit(values, 0)
+            edit(vec![values], 0)
         }
     }
 }

@@ -61,10 +61,10 @@ impl Search<'_> {
                 present = chain.into_state();
                 let slid = |moves| ways[0].clone().into_iter().chain(moves).collect();
                 ways = slides.into_iter().map(slid).collect::<Vec<Values>>();
-            }
-            if ways.is_empty() {
-                self.tries.note(form, false);
-                continue;
+                if ways.is_empty() {
+                    self.tries.note(form, false);
+                    continue;
+                }
             }
             let (edited, tries) = self.best_way(&ways, chain_seed)?;
             work += (runs + tries) * length;
