@@ -9,15 +9,14 @@
 | `orders` | training of the order in which futures run |
 | `traces` | many searches side by side, each for its best run |
 | `report` | the results of a round of training |
-| `shipped` | the guides of the package |
 """
 
 from niwaki.guides.look_ahead import train_look_ahead
 from niwaki.guides.orders import OrderTraining, train_order
 from niwaki.guides.report import Round
 from niwaki.guides.settings import Training
-from niwaki.guides.shipped import shipped
 from niwaki.guides.training import EVERY, train_guide
+from niwaki.methods.shipped import shipped, usual
 
 __all__ = [
     "EVERY",
@@ -28,4 +27,5 @@ __all__ = [
     "train_guide",
     "train_look_ahead",
     "train_order",
+    "usual",
 ]

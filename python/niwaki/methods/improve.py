@@ -73,9 +73,9 @@ class Improve(Method):
         The number of bins of a real choice or query in `by`, between its least and its largest value in the first
         population.
     proposal, guide
-        The proposal and the guide that draw choices in place of the prior, in populations and in parts that are grown
-        again, as for `importance`. No weight of prior over proposal corrects their draws: the best run counts by its
-        score alone.
+        The proposal and the guide that draw choices in place of the prior, in populations and in most of the parts that
+        are grown again, as for `importance`. The prior draws the other parts, and populations after two that died. No
+        weight of prior over proposal corrects the draws: the best run counts by its score alone.
     """
 
     NAME = "improve"

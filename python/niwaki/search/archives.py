@@ -150,15 +150,15 @@ def archive(
             expected="`improve`, which keeps an archive",
             suggestion="`improve(...)`",
         )
-    if method is None:
-        chosen = {
-            name: settings.pop(name) for name in ("rounds", "effort", "bins", "guide") if name in settings
-        }
-        method = Improve(**chosen)
-    method = replace(method, diverse=kinds, by=by if isinstance(by, str) else tuple(by), margin=None)
+    of_kinds: dict[str, Any] = {
+        "diverse": kinds,
+        "by": by if isinstance(by, str) else tuple(by),
+        "margin": None,
+    }
+    settings |= of_kinds if method is None else {"method": replace(method, **of_kinds)}
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", TOO_FEW, SearchWarning)
-        result = grow(model, *args, method=method, **settings)
+        result = grow(model, *args, **settings)
     return Archive(_of_each_kind(result))
 
 

@@ -17,6 +17,7 @@ from niwaki.errors.settings import MAX_MEMORY, MAX_STEPS, bad
 from niwaki.lang.compiled import arguments, task, translated
 from niwaki.lang.models import Model, as_model
 from niwaki.methods import Emulate, Forward, Improve, Method, Mh, Smc
+from niwaki.methods.shipped import usual
 from niwaki.result import Result
 from niwaki.result.parts import Hold
 from niwaki.result.progress import Watch
@@ -159,7 +160,8 @@ def grow(
         The model's arguments. `rounds`, `seconds`, `effort`, `diverse`, `generations`, `by`, `margin`, `bins` and
         `guide` are settings of the default search. With any other setting of `smc` (particles, order, power, ...) the
         search is one population by these settings, with a default `power` of 16 for ratio weights (1 for drawings);
-        with a `guide` its defaults are 50 particles and tempered resampling.
+        with a `guide` its defaults are 50 particles and tempered resampling. Without `guide`, the default search of a
+        model of the gallery draws by `guides.usual(...)`; `guide=None` draws from the prior.
     score
         Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`. They multiply
         `no_self_intersection(rule)` and, if there is a target, `match_volume(target, voxel, sigma, weight)`. Drawings
@@ -236,6 +238,7 @@ def grow_search(
     if engine not in ENGINES:
         raise bad("engine", engine, " or ".join(f'"{name}"' for name in ENGINES), '"auto"')
     settings = {name: kwargs.pop(name) for name in (*OF_IMPROVE, *OF_SMC, *OF_EMULATE) if name in kwargs}
+    is_usual = method is None and "guide" not in settings
     if settings.get("guide", True) is None:
         del settings["guide"]
     if method is not None and settings:
@@ -269,7 +272,8 @@ def grow_search(
         max_steps=max_steps,
         max_memory=max_memory,
     )
-    return _by_engine(search, engine, settings, method is None)
+    search = _by_engine(search, engine, settings, method is None)
+    return _by_usual_guide(search) if is_usual else search
 
 
 def _by_engine(search: Search, engine: str, settings: Mapping[str, Any], is_free: bool) -> Search:
@@ -300,6 +304,14 @@ def _by_engine(search: Search, engine: str, settings: Mapping[str, Any], is_free
         emulated.check(search)
         return replace(search, method=Emulate(**settings))
     return by_program(search, settings) if engine == "auto" and is_free else search
+
+
+def _by_usual_guide(search: Search) -> Search:
+    """Return a usual search with the guide that comes with its model and suits its score."""
+    if not isinstance(search.method, Improve):
+        return search
+    guide = usual(search.model, [ask.function for ask in search.score.asks])
+    return search if guide is None else replace(search, method=replace(search.method, guide=guide))
 
 
 def by_program(search: Search, settings: Mapping[str, Any]) -> Search:

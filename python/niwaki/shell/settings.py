@@ -256,7 +256,7 @@ def guide(
     name: str | None,
     settings: dict[str, Any],
 ) -> Guide | None:
-    """Return the guide of a search: the guide in `file`, else the model's shipped guide where it suits, else None.
+    """Return the guide of a search: the guide in `file`, else that of the usual search, else None.
 
     Parameters
     ----------
@@ -273,22 +273,21 @@ def guide(
     """
     if file == "none":
         return None
-    shipped = guides.shipped(reference.model)
-    if file == "shipped" and shipped is not None:
+    if file == "shipped" and (shipped := guides.shipped(reference.model)) is not None:
         return shipped
     if file is not None:
         return Guide.load(file)
     options = typed(settings)
-    if shipped is None or name not in (None, "smc", "improve") or options.get("weights") == "absolute":
+    usual = guides.usual(reference.model, sketches)
+    if usual is None or name not in (None, Smc.NAME, Improve.NAME) or options.get("weights") == "absolute":
         return None
-    windows = {window for window, _ in shipped.form["windows"]}
-    # In space the usual search does well without a guide, so a guide is used only by name.
-    if not windows <= set(sketches) or "match_volume" in windows:
+    # In space a guide is for the usual search: a single population with it is not as safe as with the prior.
+    if "match_volume" in sketches and (name or guided_method(options)) != Improve.NAME:
         return None
     typer.echo(
-        f"the guide shipped with `{shipped.model}` draws the choices (--guide none turns it off)", err=True
+        f"the guide shipped with `{usual.model}` draws the choices (--guide none turns it off)", err=True
     )
-    return shipped
+    return usual
 
 
 def guided_method(settings: dict[str, Any]) -> str:

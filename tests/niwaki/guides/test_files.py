@@ -12,8 +12,8 @@ import pytest
 from niwaki import gallery, guides
 from niwaki.errors import InputError
 from niwaki.gallery.vines import WINDOW, vines
-from niwaki.guides.shipped import FOLDER, names
 from niwaki.methods import Guide, importance, smc
+from niwaki.methods.shipped import FOLDER, names
 from niwaki.search import Search, SearchWarning
 from niwaki.targets import drawings
 from specification import load
@@ -173,6 +173,26 @@ def test_the_errors_are_as_reviewed(guide: Guide, tmp_path: Path, reviewed: Any)
             "one target": lambda: train(guide),
         },
     )
+
+
+def test_the_usual_search_draws_by_the_guide_of_its_model() -> None:
+    """Only the usual search, and only by a guide that is better in the same time and sees the target."""
+    tree, ship = (gallery.entry(name).model for name in ("gnarly-tree", "spaceship"))  # type: ignore[union-attr]
+    page, tube = drawings.drawing("scribbles/008"), "gallery:bent_tube"
+
+    def draws(*args: Any, **settings: Any) -> Any:
+        method = nw.search.grow_search(*args, seed=1, **settings).method
+        return isinstance(method, nw.methods.Improve) and method.proposal is not None
+
+    drawing = {"score": page.score(WINDOW)}
+    assert (
+        draws(tree, tube)
+        and draws(tree, tube, diverse=3)
+        and draws(vines, None, *page.place(WINDOW), **drawing)
+    )
+    assert not draws(ship, "gallery:ship") and draws(ship, "gallery:ship", guide=guides.shipped(ship))
+    assert not draws(tree, tube, guide=None) and not draws(tree, tube, method=nw.improve())
+    assert not draws(tree, tube, particles=10) and not draws(tree, score=nw.floor(0.0))
 
 
 def later(data: bytes) -> bytes:

@@ -17,18 +17,23 @@ from niwaki import kernels as k
 from niwaki import model
 from niwaki.errors import NiwakiError
 from niwaki.methods import Method
+from niwaki.result.info import ImproveInfo
 from niwaki.words import (
     Bernoulli,
+    Beta,
     DiscreteUniform,
     Gaussian,
     StudentT,
     Uniform,
+    box,
+    emit,
     factor,
     flip,
     future,
     gaussian,
     observe,
     poisson,
+    uniform,
 )
 
 LIMIT = 5.0
@@ -180,3 +185,21 @@ def test_a_search_with_a_proposal_is_a_value() -> None:
         drift, method=nw.smc(30, proposal=k.on("x", k.proposal(lambda: Gaussian(0, 2)))), seed=4
     )
     assert other.hash != search.hash
+
+
+@model
+def bar() -> None:
+    length = uniform(0.0, 1.0)
+    if length < 0.5:
+        factor(-math.inf)
+    emit(box((0.0, 0.0, 0.0), (length, 0.1, 0.1)))
+
+
+def test_a_search_lives_where_its_proposal_leads_to_what_is_impossible() -> None:
+    short = k.on("length", k.proposal(lambda: Beta(1.0, 200.0)))
+    target = nw.Target(*nw.run(bar, choices={"length": 0.9}).best.scene.merged(), "bar")
+    result = nw.run(bar, method=nw.improve(proposal=short, rounds=20), score=nw.match_volume(target), seed=1)
+    assert isinstance(result.info, ImproveInfo)
+    died = [attempt.died_at is not None for attempt in result.info.attempts]
+    assert died == [True, True, False]
+    assert result.best.choices["length"] == pytest.approx(0.9, abs=0.05)

@@ -99,7 +99,7 @@ impl<'a> Course<'a> {
         let tried = last.map_or(improve.particles, |attempt| attempt.particles);
         let unit = (work * improve.particles as u64 / tried as u64).max(1);
         let search = Search::begin(improve, task, seed, unit, info.attempts.len() as u64, first)?;
-        let price = if is_stopped { 1 } else { price::of(task, &search.best)? };
+        let price = if is_stopped { 1 } else { price::of(task, &search.best, improve.drawn_by.is_some())? };
         let form = last.map_or(0, |attempt| number_of(attempt.form));
         Ok(Course::of(search, seed, work, form, price))
     }
@@ -116,7 +116,7 @@ impl<'a> Course<'a> {
     ) -> Result<Course<'a>, Failure> {
         let (run, state) = rounds::at_choices(task, choices)?;
         let work = run.primitives as u64 + 1;
-        let price = price::of(task, &run)?;
+        let price = price::of(task, &run, improve.drawn_by.is_some())?;
         let slice = (work * improve.particles as u64 / rounds::PER_POPULATION).max(1);
         let rounds_seed = restart_seed(seed, 0);
         let search = Search::at(improve, task, rounds_seed, slice, (run, state), None, HashMap::new());

@@ -1,7 +1,7 @@
 //! The price of work, in instructions of a processor: a count, so that it is the same on every machine.
 //!
 //! A unit of work is a particle step, a proposal or a moved shape. Its price depends on the model, so it is estimated from one run.
-//! The price has the model's instructions, the calls of functions of the host, and what decides how long sketches look at a shape:
+//! The price has the model's instructions, the choices that a proposal draws, the calls of functions of the host, and what decides how long sketches look at a shape:
 //! its corners, and the cells of a shape that is not convex. All are divided by the number of barriers of the run. The factors are
 //! rounded from counts of callgrind (`benches/counts.json`) and from the processor seconds of the problems of `benches/board.py`.
 
@@ -39,15 +39,18 @@ const CORNER: u64 = 3_000;
 /// compared with the triangle.
 const CELL: u64 = 5;
 const TRIANGLE_CELL: u64 = 30;
+/// A choice of a search with a proposal, which draws the choices of more than half of the work: a guide looks at the target, and its network
+/// is computed.
+const PROPOSED: u64 = 12_000;
 /// A call of a function of the host. Its work is unknown, so a thousand calls are as dear as the floor: a search whose host takes
 /// a third of a second ends after minutes.
 const HOST: u64 = FLOOR / 1_000;
 
-/// The price of a unit of work, in instructions.
+/// The price of a unit of work, in instructions; `by_proposal` is whether the search has a proposal.
 ///
 /// # Errors
 /// A fault of the program.
-pub(super) fn of(task: &Task, run: &Run) -> Result<u64, Failure> {
+pub(super) fn of(task: &Task, run: &Run, by_proposal: bool) -> Result<u64, Failure> {
     let calls = Arc::new(Calls { hosts: task.hosts.clone(), number: AtomicU64::new(0) });
     let task = Task { hosts: calls.clone(), ..task.uncounted() };
     let known = by_address(&run.log.entries());
@@ -60,8 +63,10 @@ pub(super) fn of(task: &Task, run: &Run) -> Result<u64, Failure> {
     });
     let barriers = state.primitives as u64 + state.trace.totals().factors.unsigned_abs();
     let instructions = INSTRUCTION * state.trace.counters().instructions;
+    let proposed = if by_proposal { PROPOSED * known.len() as u64 } else { 0 };
     let hosts = HOST.saturating_mul(calls.number.load(Ordering::Relaxed));
-    Ok(STEP + instructions.saturating_add(shapes).saturating_add(hosts) / barriers.max(1))
+    let all = [instructions, shapes, proposed, hosts].into_iter().fold(0, u64::saturating_add);
+    Ok(STEP + all / barriers.max(1))
 }
 
 /// The price of a shape in all sketches together.

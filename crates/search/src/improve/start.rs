@@ -44,6 +44,9 @@ const FORMS: [Form; 6] = [
     Form { name: "depth-first order", times: 6, power: 1.0 / 16.0, order: Order::DepthFirst, ..USUAL },
 ];
 
+/// The first so many forms draw by the search's proposal. The prior draws the others, if the proposal leads to what is impossible.
+const BY_PROPOSAL: usize = 2;
+
 /// The number of the form by its name in reports; the first for an unknown name.
 pub(super) fn number_of(form: &str) -> usize {
     FORMS.iter().position(|known| known.name == form).unwrap_or(0)
@@ -78,7 +81,7 @@ impl Improve {
                 anneal: form.anneal.clone(),
                 order: form.order.clone(),
                 seed: population_seed(seed, number as u64),
-                proposal: self.drawn_by.clone(),
+                proposal: self.drawn_by.clone().filter(|_| number < BY_PROPOSAL),
                 ..Settings::default()
             };
             let attempt = |died_at| Attempt { form: form.name, particles: settings.particles, died_at };

@@ -15,7 +15,6 @@ from PIL import Image, ImageDraw
 import niwaki as nw
 from niwaki import targets
 from niwaki.errors import InputError
-from niwaki.guides import shipped
 from niwaki.lang.compiled import arguments as positional
 from niwaki.shell.references import ModelReference
 from niwaki.studio.messages import Ask, Question, Sketch, Stroke, TargetAsk
@@ -41,10 +40,8 @@ def search(question: Question) -> tuple[ModelReference, dict[str, Any]]:
     elif ask.target is not None and ask.target != usual(model):
         options["target"] = placed(ask.target)
     goals = model.terms(options)
-    guide = shipped(model.model) if model.style is not None and "camera" not in options else None
     return model, {
         "score": targets.asks.score(goals, targets.sketches.volume_score),
-        "guide": guide,
         **model.start(goals),
         **question.arguments,
     }
@@ -54,7 +51,7 @@ def arguments(question: Question) -> tuple[Any, ...]:
     """Return the model's arguments by position: the user's arguments, and the arguments that a drawing sets."""
     model = reference(question.model)
     values = search(question)[1] if model.follows else question.arguments
-    named = {name: value for name, value in values.items() if name not in ("score", "guide")}
+    named = {name: value for name, value in values.items() if name != "score"}
     return tuple(positional(model.model, (), named))
 
 

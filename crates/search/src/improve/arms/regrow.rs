@@ -9,6 +9,8 @@ use serde_json::json;
 
 /// The probability that a discrete choice of a part turns when the part is grown again.
 const TURN: f64 = 0.7;
+/// The share of the parts that a proposal draws, where there is one. The prior draws the others, for what the proposal has never met.
+const GUIDED: f64 = 0.8;
 /// Factor of the number of particles in rounds of "regrow more".
 const MORE: usize = 5;
 
@@ -35,6 +37,9 @@ fn kernel(sizes: &Sizes, particles: usize) -> Result<Kernel, Fault> {
     let plain = leaf("regrow", settings)?;
     Ok(match &sizes.drawn_by {
         None => plain,
-        Some(proposal) => plain.drawn_by(proposal.clone()),
+        Some(proposal) => {
+            let guided = plain.clone().drawn_by(proposal.clone());
+            Kernel::Mixture(vec![(GUIDED, guided), (1.0 - GUIDED, plain)])
+        }
     })
 }
