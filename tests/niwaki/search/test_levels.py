@@ -7,6 +7,7 @@ choices, loops in loops, two loops of one count, memoised calls, and nothing tha
 import niwaki as nw
 import pytest
 from niwaki import condition, discrete_uniform, emit, factor, flip, future, gaussian, mem, uniform
+from niwaki.result.info import ImproveInfo
 from niwaki.words import box
 
 
@@ -63,6 +64,23 @@ def beside():
 
 
 @nw.model
+def hedge(height):
+    """A row of boxes from the origin on, which is decided box by box."""
+    bush(0.0, height, 0)
+
+
+@nw.model
+def bush(x, height, number):
+    """Add a box, perhaps a box behind it, and perhaps the next."""
+    length = uniform(1.0, 3.0)
+    emit(box((x + 0.5 * length, 0.0, 0.0), (0.9 * length, 1.0, 0.5)))
+    if flip(0.5):
+        emit(box((x + 0.5 * length, 0.0, 2.0), (0.5 * length, height * uniform(0.5, 1.0), 0.5)))
+    if number < 6 and flip(0.8):
+        bush(x + length, height, number + 1)
+
+
+@nw.model
 def shared():
     """A memoised choice in a loop: no part can be grown again."""
     size = mem(draw_size)
@@ -107,6 +125,18 @@ def test_a_search_with_levels_repeats_itself_and_its_result_is_a_run(model: nw.M
 def test_levels_find_the_number_that_the_score_wants() -> None:
     assert len(searched(steps).best.choices) == 6
     assert len([name for name in searched(chain).best.choices if name.endswith("y")]) >= 6
+
+
+def test_an_edit_counts_its_own_work_alone() -> None:
+    """Edits slide a real of their level first; they do not count the work of all rounds before them again."""
+    tall = nw.Target(*nw.run(hedge, 6.0, choices={}, seed=12).best.scene.merged(), "hedge")
+    score = nw.no_self_intersection() * nw.match_volume(tall)
+    result = nw.run(hedge, 3.0, method=nw.improve(20, 6, rounds=400), score=score, seed=3)
+    assert isinstance(result.info, ImproveInfo)
+    works: dict[str, list[int]] = {}
+    for taken in result.info.rounds:
+        works.setdefault(taken.step, []).append(taken.work)
+    assert max(works["levels"]) < 12 * sum(works["move"]) / len(works["move"])
 
 
 def test_a_held_count_stays() -> None:

@@ -56,8 +56,9 @@ impl Search<'_> {
             let chain_seed = rng.next_u64();
             if let Some(choice) = slide {
                 let mut chain = self.chain(kernel, present, chain_seed, 3)?;
+                let before = chain.work();
                 let slides = chain.slides(self.task, choice, most, &mut rng)?;
-                work += chain.work();
+                work += chain.work() - before;
                 present = chain.into_state();
                 let slid = |moves| ways[0].clone().into_iter().chain(moves).collect();
                 ways = slides.into_iter().map(slid).collect::<Vec<Values>>();
@@ -82,8 +83,9 @@ impl Search<'_> {
                 let regrow = Regrow::best_of(new.clone(), self.improve.regrow, self.improve.drawn_by.clone());
                 let grow = Kernel::Leaf(Proposer::Regrow(Box::new(regrow)));
                 let mut grown = self.chain(&grow, chain.into_state(), chain_seed, 1)?;
+                let before = grown.work();
                 grown.advance(self.task, new.len() as u64, &mut |_, _| true)?;
-                work += grown.work();
+                work += grown.work() - before;
                 chain = self.chain(kernel, grown.into_state(), chain_seed, 2)?;
             }
             let before = chain.work();
