@@ -282,7 +282,7 @@ def guide(
     if usual is None or name not in (None, Smc.NAME, Improve.NAME) or options.get("weights") == "absolute":
         return None
     # In space a guide is for the usual search: a single population with it is not as safe as with the prior.
-    if "match_volume" in sketches and (name or guided_method(options)) != Improve.NAME:
+    if "match_volume" in sketches and (name or guided_method(settings)) != Improve.NAME:
         return None
     typer.echo(
         f"the guide shipped with `{usual.model}` draws the choices (--guide none turns it off)", err=True
