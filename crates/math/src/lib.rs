@@ -38,7 +38,7 @@ pub use distributions::{
     Space, Support, logistic,
 };
 pub use rounding::grid;
-pub use scalar::{LastLog, Scalar};
+pub use scalar::{LastLog, LastLogs, Logs, Scalar};
 pub use streams::{RngCore, Stream, StreamKey};
 pub use total::Total;
 pub use vector::{Mat3, Vec3, vec3};

@@ -116,13 +116,69 @@ impl<S: Scalar> LastLog<S> {
     /// `x.ln()`, bit for bit. The logarithm of a number that varies is computed (and recorded) each time.
     #[inline(always)]
     pub fn of(&mut self, x: S) -> S {
+        self.by(x, S::ln)
+    }
+
+    /// `log(x)`, bit for bit, where `log` is always the same.
+    #[inline(always)]
+    fn by(&mut self, x: S, log: impl FnOnce(S) -> S) -> S {
         if x.varies() {
-            return x.ln();
+            return log(x);
         }
         if x.value().to_bits() != self.of {
-            *self = LastLog { of: x.value().to_bits(), log: x.ln() };
+            *self = LastLog { of: x.value().to_bits(), log: log(x) };
         }
         self.log
+    }
+}
+
+/// The logarithms that the density of a draw needs.
+pub trait Logs<S> {
+    /// `x.ln()`.
+    fn ln(&mut self, x: S) -> S;
+
+    /// `(-p).ln_1p()`.
+    fn ln_of_rest(&mut self, p: S) -> S;
+}
+
+/// Logarithms that are computed each time.
+pub struct EachLog;
+
+impl<S: Scalar> Logs<S> for EachLog {
+    #[inline(always)]
+    fn ln(&mut self, x: S) -> S {
+        x.ln()
+    }
+
+    #[inline(always)]
+    fn ln_of_rest(&mut self, p: S) -> S {
+        (-p).ln_1p()
+    }
+}
+
+/// The last logarithm of each kind: draws by equal parameters compute them once.
+#[derive(Clone, Copy, Debug)]
+pub struct LastLogs<S: Scalar> {
+    log: LastLog<S>,
+    rest: LastLog<S>,
+}
+
+impl<S: Scalar> Default for LastLogs<S> {
+    fn default() -> Self {
+        let rest = LastLog { of: 0.0_f64.to_bits(), log: (-S::from_f64(0.0)).ln_1p() };
+        LastLogs { log: LastLog::default(), rest }
+    }
+}
+
+impl<S: Scalar> Logs<S> for LastLogs<S> {
+    #[inline(always)]
+    fn ln(&mut self, x: S) -> S {
+        self.log.of(x)
+    }
+
+    #[inline(always)]
+    fn ln_of_rest(&mut self, p: S) -> S {
+        self.rest.by(p, |p| (-p).ln_1p())
     }
 }
 

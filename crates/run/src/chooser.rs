@@ -72,6 +72,11 @@ pub trait Chooser {
     /// Whether every value is drawn from the prior, so that all log weights are zero.
     const IS_PRIOR: bool = false;
 
+    /// The key of the random bits from which every value is drawn by its prior; `None` where that is not so.
+    fn key(&self) -> Option<StreamKey> {
+        None
+    }
+
     /// Whether the chooser uses the scene, so that windows and last parts must be kept.
     fn looks(&self) -> bool {
         false
@@ -96,6 +101,10 @@ pub trait Chooser {
 impl<C: Chooser> Chooser for &mut C {
     const IS_PRIOR: bool = C::IS_PRIOR;
 
+    fn key(&self) -> Option<StreamKey> {
+        (**self).key()
+    }
+
     fn looks(&self) -> bool {
         (**self).looks()
     }
@@ -111,6 +120,11 @@ pub struct Prior(pub StreamKey);
 
 impl Chooser for Prior {
     const IS_PRIOR: bool = true;
+
+    #[inline(always)]
+    fn key(&self) -> Option<StreamKey> {
+        Some(self.0)
+    }
 
     #[inline(always)]
     fn choose(&mut self, _: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {

@@ -6,7 +6,7 @@ use crate::record::{Record, check_factor};
 use crate::run::Run;
 use crate::task::{Hosts, Task};
 use niwaki_geom::Shape;
-use niwaki_math::{Dist, StreamKey};
+use niwaki_math::{Dist, LastLogs, StreamKey, grid};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::machine::state::State;
@@ -95,6 +95,22 @@ pub fn named(factor: Factor, line: u32) -> String {
 
 impl<C: Chooser> Answers<f64> for Forward<'_, C> {
     const LOGS: bool = true;
+    const DRAWS: bool = C::IS_PRIOR;
+
+    #[inline(always)]
+    fn drawn(&mut self, address: u128, dist: &Dist, logs: &mut LastLogs<f64>) -> Option<Value> {
+        let mut random = self.chooser.key()?.at(address);
+        let (draw, log) = dist.sample_and_score_with(&mut random, logs);
+        let value = draw.into();
+        self.record.choose(address, &value, log);
+        Some(value)
+    }
+
+    #[inline(always)]
+    fn scored(&mut self, log: f64) -> Answer<()> {
+        self.record.factor(grid(log), String::new);
+        self.barrier()
+    }
 
     #[inline(always)]
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {

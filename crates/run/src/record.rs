@@ -81,7 +81,7 @@ impl Record {
     }
 
     /// Add a choice and its log density.
-    #[inline]
+    #[inline(always)]
     pub fn choose(&mut self, address: u128, value: &Value, log_density: f64) {
         self.log_prior.add(grid(log_density));
         self.log.push(address, value.clone());

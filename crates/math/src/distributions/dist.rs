@@ -12,7 +12,7 @@ use super::mixture::Mixture;
 use super::vectors::MultivariateGaussian;
 use super::weights::Weights;
 use super::{bell, circle, counts, interval, lists, tails, truncated, vectors, waiting, whole};
-use crate::scalar::{LastLog, Scalar};
+use crate::scalar::{EachLog, LastLog, Logs, Scalar};
 use crate::streams::RngCore;
 use std::sync::Arc;
 
@@ -27,9 +27,8 @@ impl<S: Scalar> Dist<S> {
             Family::LogNormal if a.is_finite() && positive(b) && bell::log_normal_has_scores(a, b) => {
                 Dist::LogNormal { mean: a, sd: b }
             }
-            Family::Uniform if a.is_finite() && b.is_finite() && a < b && (b - a).is_finite() => {
-                Dist::Uniform { lo: a, hi: b }
-            }
+            // Ends that are not finite have no finite distance.
+            Family::Uniform if a < b && (b - a).is_finite() => Dist::Uniform { lo: a, hi: b },
             Family::Gamma if positive(a) && positive(b) => Dist::Gamma { shape: a, scale: b },
             Family::Beta if positive(a) && positive(b) => Dist::Beta { a, b },
             _ => return None,
@@ -252,6 +251,16 @@ impl<S: Scalar> Dist<S> {
     /// A draw and its log density: [`Dist::sample`], then [`Dist::log_density`].
     #[inline(always)]
     pub fn sample_and_score(&self, rng: &mut (impl RngCore + ?Sized)) -> (Draw<S>, S) {
+        self.sample_and_score_with(rng, &mut EachLog)
+    }
+
+    /// [`Dist::sample_and_score`] with logarithms from elsewhere.
+    #[inline(always)]
+    pub fn sample_and_score_with(
+        &self,
+        rng: &mut (impl RngCore + ?Sized),
+        logs: &mut impl Logs<S>,
+    ) -> (Draw<S>, S) {
         match self {
             Dist::Categorical(w) => {
                 let k = w.sample(rng) as i64;
@@ -259,15 +268,15 @@ impl<S: Scalar> Dist<S> {
             }
             Dist::Bernoulli { p } => {
                 let b = whole::bernoulli_sample(p.value(), rng);
-                (Draw::Bool(b), whole::bernoulli_log_density(*p, b))
+                (Draw::Bool(b), whole::bernoulli_log_density_with(*p, b, logs))
             }
             Dist::Uniform { lo, hi } => {
                 let x = S::from_f64(interval::uniform_sample(lo.value(), hi.value(), rng));
-                (Draw::Real(x), interval::uniform_log_density(*lo, *hi, x))
+                (Draw::Real(x), interval::uniform_log_density_with(*lo, *hi, x, logs))
             }
             Dist::Gaussian { mean, sd } => {
                 let x = S::from_f64(bell::gaussian_sample(mean.value(), sd.value(), rng));
-                (Draw::Real(x), bell::gaussian_log_density(*mean, *sd, x))
+                (Draw::Real(x), bell::gaussian_log_density_with(*mean, *sd, logs.ln(*sd), x))
             }
             _ => self.sample_then_score(rng),
         }

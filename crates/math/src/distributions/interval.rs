@@ -1,13 +1,19 @@
 //! Bounded numbers: uniform, beta.
 
 use super::waiting::log_gamma_draw;
-use crate::scalar::Scalar;
+use crate::scalar::{EachLog, Logs, Scalar};
 use crate::streams::{RngCore, open_unit};
 
 /// `-ln(hi - lo)`; both ends are in the support, since rounding can reach them.
 #[inline]
 pub(super) fn uniform_log_density<S: Scalar>(lo: S, hi: S, x: S) -> S {
-    if x >= lo && x <= hi { -(hi - lo).ln() } else { S::from_f64(f64::NEG_INFINITY) }
+    uniform_log_density_with(lo, hi, x, &mut EachLog)
+}
+
+/// [`uniform_log_density`] with logarithms from elsewhere.
+#[inline(always)]
+pub(super) fn uniform_log_density_with<S: Scalar>(lo: S, hi: S, x: S, logs: &mut impl Logs<S>) -> S {
+    if x >= lo && x <= hi { -logs.ln(hi - lo) } else { S::from_f64(f64::NEG_INFINITY) }
 }
 
 /// `lo + (hi - lo) u`.

@@ -1,12 +1,18 @@
 //! Whole numbers and truth values: bernoulli, discrete_uniform, geometric.
 
-use crate::scalar::Scalar;
+use crate::scalar::{EachLog, Logs, Scalar};
 use crate::streams::{RngCore, open_unit};
 
 /// `ln p` for true, `ln(1 - p)` for false.
 #[inline]
 pub(super) fn bernoulli_log_density<S: Scalar>(p: S, x: bool) -> S {
-    if x { p.ln() } else { (-p).ln_1p() }
+    bernoulli_log_density_with(p, x, &mut EachLog)
+}
+
+/// [`bernoulli_log_density`] with logarithms from elsewhere.
+#[inline(always)]
+pub(super) fn bernoulli_log_density_with<S: Scalar>(p: S, x: bool, logs: &mut impl Logs<S>) -> S {
+    if x { logs.ln(p) } else { logs.ln_of_rest(p) }
 }
 
 /// True when the first uniform falls below `p`.

@@ -20,6 +20,15 @@ const MOST_BYTES: usize = 64 << 20;
 /// Bytes of machine code at present.
 static BYTES: AtomicUsize = AtomicUsize::new(0);
 
+/// A place where machine code may begin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Place {
+    /// The instruction.
+    pub pc: u32,
+    /// Whether the code is worth its call only if it makes choices.
+    pub for_choices: bool,
+}
+
 /// The places of one function where machine code may begin. Copies of a program share them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Entries {
@@ -31,12 +40,12 @@ pub(crate) struct Entries {
 impl Entries {
     /// Entries at the given instructions, ascending, of a function with `instructions` instructions. Code is
     /// made after `visits` visits, by a thread of its own if `in_background`.
-    pub fn at_places(places: Vec<u32>, instructions: usize, visits: u32, in_background: bool) -> Entries {
+    pub fn at_places(places: Vec<Place>, instructions: usize, visits: u32, in_background: bool) -> Entries {
         let mut numbers = vec![0; if places.is_empty() { 0 } else { instructions }];
-        for (k, pc) in places.iter().enumerate() {
-            numbers[*pc as usize] = k as u16 + 1;
+        for (k, place) in places.iter().enumerate() {
+            numbers[place.pc as usize] = k as u16 + 1;
         }
-        let all = places.into_iter().map(|pc| Entry::new(pc, visits, in_background));
+        let all = places.into_iter().map(|place| Entry::new(place, visits, in_background));
         Entries { numbers: numbers.into(), all: all.collect() }
     }
 
@@ -58,7 +67,7 @@ impl Entries {
 /// A place of a function where machine code may begin.
 #[derive(Debug)]
 pub(crate) struct Entry {
-    pc: u32,
+    place: Place,
     /// The number of visits before code is made.
     after: u32,
     /// Whether a thread of its own makes the code, while the run continues.
@@ -73,9 +82,9 @@ pub(crate) struct Entry {
 }
 
 impl Entry {
-    fn new(pc: u32, after: u32, in_background: bool) -> Entry {
+    fn new(place: Place, after: u32, in_background: bool) -> Entry {
         Entry {
-            pc,
+            place,
             after,
             in_background,
             is_closed: AtomicBool::new(false),
@@ -87,10 +96,10 @@ impl Entry {
         }
     }
 
-    /// Whether there is code here, or may be later.
+    /// Whether there is code here, or may be later, for a run whose choices machine code makes or not.
     #[inline]
-    pub fn is_open(&self) -> bool {
-        !self.is_closed.load(Ordering::Relaxed)
+    pub fn is_open(&self, chooses: bool) -> bool {
+        !self.is_closed.load(Ordering::Relaxed) && (chooses || !self.place.for_choices)
     }
 
     fn close(&self) {
@@ -116,7 +125,7 @@ impl Entry {
 
     /// The instruction.
     pub fn pc(&self) -> usize {
-        self.pc as usize
+        self.place.pc as usize
     }
 
     /// Whether a thread of its own makes the code, while the run continues.

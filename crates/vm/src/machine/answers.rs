@@ -11,7 +11,7 @@ use crate::code::{Function, Mode, Program, Site, Visible};
 use crate::fault::Fault;
 use crate::value::{Record, Value};
 use niwaki_geom::{Aabb, Placement, Shape};
-use niwaki_math::{Dist, Scalar};
+use niwaki_math::{Dist, LastLogs, Scalar};
 
 /// An answer: continue, or pause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -149,6 +149,9 @@ pub trait Answers<S: Scalar> {
     /// Whether the answers need the distributions of observations ([`Answers::observes`]).
     const WATCHES: bool = false;
 
+    /// Whether machine code may ask ([`Answers::drawn`], [`Answers::scored`]).
+    const DRAWS: bool = false;
+
     /// The run meets an observation of this distribution, or a held choice. Called before its score.
     fn observes(&mut self, _: &At<'_, S>, _: &Dist<S>) {}
 
@@ -158,6 +161,13 @@ pub trait Answers<S: Scalar> {
     /// A fault ends the run; it is reported with the model's call stack.
     fn choice(&mut self, at: &At<'_, S>, dist: &Dist<S>) -> Result<Answer<Value<S>>, Fault>;
 
+    /// The value of a random choice whose address and distribution are all that the answer depends on: what
+    /// [`Answers::choice`] would do. `None` if that has to be asked. The distribution draws single numbers.
+    #[inline]
+    fn drawn(&mut self, _: u128, _: &Dist<S>, _: &mut LastLogs<S>) -> Option<Value<S>> {
+        None
+    }
+
     /// A factor of the score, in nats.
     ///
     /// # Errors
@@ -165,6 +175,12 @@ pub trait Answers<S: Scalar> {
     #[inline]
     fn score(&mut self, _: &At<'_, S>, _: Factor, _: S) -> Result<Answer<()>, Fault> {
         Ok(Answer::Go(()))
+    }
+
+    /// A `factor` of finitely many nats: what [`Answers::score`] would do.
+    #[inline]
+    fn scored(&mut self, _: S) -> Answer<()> {
+        Answer::Go(())
     }
 
     /// A held choice has its value, which has this log density, in nats.

@@ -1,7 +1,10 @@
 //! The entry into machine code.
 
+use super::answers::Answers;
+use super::ask::QuestionsOf;
+use super::question::LOGGED;
 use super::registers::Registers;
-use super::state::State;
+use super::state::{NodeId, State};
 use super::workspace::{Machine, PureCall};
 use crate::code::entries::Entry;
 use crate::code::register::Reg;
@@ -12,37 +15,55 @@ use crate::value::Value;
 use niwaki_math::Scalar;
 use std::any::Any;
 
-/// The place where the interpreter continues after machine code.
-pub(super) struct Resumption {
-    pub function: FunctionId,
-    pub scratch: usize,
-    pub pc: usize,
-    /// The number of instructions that the code ran.
-    pub instructions: u64,
+/// The instructions that a choice counts for where the worth of code is judged.
+const CHOICE: u64 = 16;
+
+/// The exchange of code that may ask about an activation.
+#[inline(always)]
+fn asking<S: Scalar, A: Answers<S>>(state: &State<S>, node: NodeId, answers: &mut A) -> Exchange {
+    let path = state.nodes[node.0 as usize].path;
+    Exchange {
+        path: [path as u64, (path >> 64) as u64],
+        node: node.0,
+        questions: QuestionsOf::<S, A>::ALL,
+        answers: std::ptr::from_mut(answers).cast(),
+        logged: if A::LOGS { LOGGED as i64 } else { 0 },
+        ..Exchange::NOTHING
+    }
 }
 
 impl<S: Scalar> Machine<'_, S> {
     /// Runs the machine code that begins here, if there is code for these registers. If every write to a
-    /// register of the activation must be recorded, only code without such writes runs.
+    /// register of the activation must be recorded, only code without such writes runs. If the run `chooses`, the
+    /// code asks the answers for choices of the activation. Returns where the code left, and how many instructions
+    /// it ran.
     #[inline(never)]
-    pub(super) fn enter(
+    pub(super) fn enter<'e, A: Answers<S>>(
         &mut self,
         state: &mut State<S>,
         r: Registers<'_, S>,
-        function: FunctionId,
-        entry: &Entry,
+        (function, entry): (FunctionId, &'e Entry),
         writes_plainly: bool,
-    ) -> Option<Resumption> {
+        (chooses, node, answers): (bool, NodeId, &mut A),
+    ) -> Option<(&'e Exit, u64)> {
+        let mut exchange = if chooses { asking(state, node, answers) } else { Exchange::NOTHING };
         for routine in entry.routines().filter(|routine| writes_plainly || !routine.writes_node) {
-            let before = if routine.counts { self.allowance(state, r) } else { Exchange::default() };
-            let mut after = before;
-            if let Some(exit) = self.run_code(state, r, routine, &mut after) {
+            if routine.counts {
+                self.allow(state, r, &mut exchange);
+            }
+            let (steps, bytes) = (exchange.steps, exchange.bytes);
+            if let Some(exit) = self.run_code(state, r, routine, &mut exchange) {
+                let logged = (exchange.logged * exchange.choices.cast_signed()) as usize;
+                state.logged += logged;
+                let mut charged = 0;
                 if routine.counts {
-                    state.steps += (before.steps - after.steps).cast_unsigned();
-                    state.charged += (before.bytes - after.bytes) as usize;
+                    state.steps += (steps - exchange.steps).cast_unsigned();
+                    charged = (bytes - exchange.bytes) as usize - logged;
+                    state.charged += charged;
                 }
-                entry.note(|| after.instructions + (before.bytes - after.bytes).cast_unsigned() / 8);
+                entry.note(|| exchange.instructions + charged as u64 / 8 + CHOICE * exchange.choices);
                 self.holds_shared |= exit.has_shared;
+                (self.called, self.pauses) = (NodeId(exchange.called), exchange.answer != 0);
                 for call in &exit.calls {
                     self.pure.push(PureCall {
                         caller: call.caller,
@@ -52,12 +73,7 @@ impl<S: Scalar> Machine<'_, S> {
                         as_future: false,
                     });
                 }
-                return Some(Resumption {
-                    function: exit.function,
-                    scratch: r.scratch + exit.base as usize,
-                    pc: exit.pc as usize,
-                    instructions: after.instructions,
-                });
+                return Some((exit, exchange.instructions));
             }
         }
         if (writes_plainly || r.f.mode == Mode::Pure) && entry.is_due() {
@@ -66,14 +82,12 @@ impl<S: Scalar> Machine<'_, S> {
         None
     }
 
-    /// The steps, bytes and registers that code may use.
-    fn allowance(&self, state: &State<S>, r: Registers<'_, S>) -> Exchange {
-        Exchange {
-            steps: state.alarm.saturating_sub(state.steps).min(i64::MAX.cast_unsigned()).cast_signed(),
-            bytes: state.ceiling.saturating_sub(state.bytes()) as i64,
-            room: self.high.saturating_sub(r.scratch) as i64,
-            instructions: 0,
-        }
+    /// Allows code the steps, bytes and registers that are left.
+    fn allow(&self, state: &State<S>, r: Registers<'_, S>, exchange: &mut Exchange) {
+        let steps: u64 = state.alarm.saturating_sub(state.steps);
+        exchange.steps = steps.min(i64::MAX.cast_unsigned()).cast_signed();
+        exchange.bytes = state.ceiling.saturating_sub(state.bytes()) as i64;
+        exchange.room = self.high.saturating_sub(r.scratch) as i64;
     }
 
     /// Runs a routine. `None` if the registers do not have the kinds that it was written for.
@@ -93,6 +107,8 @@ impl<S: Scalar> Machine<'_, S> {
         let registers = state.registers.as_mut_ptr();
         let (node, outer) = (registers.wrapping_add(r.base), registers.wrapping_add(r.outer));
         let scratch = self.scratch.as_mut_ptr().wrapping_add(r.scratch);
+        exchange.state = std::ptr::from_mut(state).cast();
+        exchange.logs = std::ptr::from_mut(&mut self.logs_of_questions).cast();
         // SAFETY: routines are written for programs of `f64` alone. The verifier has found all registers of the
         // function below the numbers that an activation, and the loop node above it, have in the state.
         unsafe { routine.run(exchange, node.cast(), outer.cast(), scratch.cast()) }

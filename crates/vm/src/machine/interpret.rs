@@ -12,6 +12,7 @@ use super::registers::{Registers, proven};
 use super::state::{FutureId, NodeId, State};
 use super::workspace::{Here, Machine, PureCall};
 use crate::builtins;
+use crate::code::routine::Then;
 use crate::code::{Binary, FunctionId, Mode, Op, SiteKind, exit};
 use crate::core::readable;
 use crate::fault::Fault;
@@ -35,6 +36,8 @@ impl<S: Scalar> Machine<'_, S> {
         let mut f = program.function(id);
         let mut code = f.code.as_slice();
         let mut executed = 0u64;
+        // Held choices are observed, and those of kept activations recorded.
+        let chooses = A::DRAWS && !K::KEEPS && self.held.is_none();
         if K::KEEPS {
             keep.enter(state, node);
         }
@@ -125,25 +128,53 @@ impl<S: Scalar> Machine<'_, S> {
                 }
             }};
         }
-        // Runs the machine code that begins there, if it exists, and continues where it leaves.
+        // Continues at the start of an activation, or where it waits for a call.
+        macro_rules! continue_in {
+            ($node:expr, $pc:expr) => {{
+                node = $node;
+                id = state.nodes[node.0 as usize].function;
+                f = program.function(id);
+                code = &f.code;
+                pc = $pc as usize;
+                (base, outer) = self.bases(state, f, node);
+                self.reserve(scratch + f.scratch_registers as usize);
+            }};
+        }
+        // Runs the machine code that begins there, if it exists, and that of the activations that it calls, and
+        // continues where it leaves.
         macro_rules! native {
-            ($pc:expr) => {
-                if let Some(entry) = f.native.at($pc)
-                    && entry.is_open()
-                    && let Some(on) = self.enter(state, r!(), id, entry, keep.writes_plainly())
+            ($pc:expr) => {{
+                let (mut at, mut has_run) = ($pc, false);
+                while let Some(entry) = f.native.at(at)
+                    && entry.is_open(chooses)
+                    && let Some((on, instructions)) =
+                        self.enter(state, r!(), (id, entry), keep.writes_plainly(), (chooses, node, answers))
                 {
+                    has_run = true;
                     if K::KEEPS {
-                        executed += on.instructions;
+                        executed += instructions;
                     }
                     id = on.function;
                     f = program.function(id);
                     code = &f.code;
-                    (scratch, pc) = (on.scratch, on.pc);
-                    true
-                } else {
-                    false
+                    scratch += on.base as usize;
+                    pc = on.pc as usize;
+                    match on.then {
+                        Then::Continues => break,
+                        Then::Pauses if self.pauses => {
+                            state.pause(future, node, pc);
+                            return Ok(Stop::Paused);
+                        }
+                        Then::Pauses => {}
+                        Then::Enters => {
+                            step!();
+                            continue_in!(self.called, 0);
+                        }
+                    }
+                    at = pc;
                 }
-            };
+                has_run
+            }};
         }
         macro_rules! goto {
             ($target:expr) => {{
@@ -161,13 +192,7 @@ impl<S: Scalar> Machine<'_, S> {
         // Continues in another activation.
         macro_rules! enter {
             ($node:expr, $pc:expr) => {{
-                node = $node;
-                id = state.nodes[node.0 as usize].function;
-                f = program.function(id);
-                code = &f.code;
-                pc = $pc as usize;
-                (base, outer) = self.bases(state, f, node);
-                self.reserve(scratch + f.scratch_registers as usize);
+                continue_in!($node, $pc);
                 if K::KEEPS {
                     keep.enter(state, node);
                 }

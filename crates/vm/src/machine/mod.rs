@@ -15,7 +15,7 @@
 //! * [`lanes`]: many runs at the same place, one instruction at a time for all of them;
 //! * `interpret`: the loop over instructions; `registers`: from operands to values;
 //! * `cache`: a cache of distributions by their parameters;
-//! * `enter`: the entry into machine code;
+//! * `enter`: the entry into machine code; `ask`: the choices that it makes;
 //! * `operate`: operations of two operands; `construct`: instructions that build or unpack an aggregate;
 //! * `question`: choices and factors; `suspend`: all other sites; `loops`: lifted loops; `memo`: memoised
 //!   functions, over `memos`, the existing calls; `keep`: the interface to what is kept of an activation that
@@ -25,6 +25,7 @@
 
 pub mod address;
 pub mod answers;
+mod ask;
 mod begin;
 mod boxes;
 mod budget;

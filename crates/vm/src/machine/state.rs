@@ -55,8 +55,17 @@ impl Node {
     /// called last.
     const LENT: u32 = u32::MAX - 1;
 
+    /// The mark in [`Node::slots`] of an activation that has dropped its contents at a call that comes last.
+    const EMPTY: u32 = u32::MAX - 2;
+
     /// The mark of a memoised call in [`Node::iteration`].
     const MEMO: u32 = 1 << 31;
+
+    /// An activation at its start, without registers.
+    #[inline(always)]
+    fn fresh(function: FunctionId, parent: NodeId, site: u32, path: u128) -> Node {
+        Node { path, function, parent, site, registers: 0, iteration: 0, pc: 0, slots: u32::MAX, created: 0 }
+    }
 
     /// The number of a memoised call: the number of its future, or of its entry in a trace. The first caller is
     /// not a part of its address.
@@ -345,30 +354,33 @@ impl<S: Scalar> State<S> {
         if self.free.is_empty() {
             self.free.resize(program.functions.len(), NodeId::NONE);
         }
-        let fresh = Node {
-            path,
-            function,
-            parent,
-            site,
-            registers: 0,
-            iteration: 0,
-            pc: 0,
-            slots: u32::MAX,
-            created: 0,
-        };
-        let free = self.free[function.0 as usize];
-        if free != NodeId::NONE {
-            let node = &mut self.nodes[free.0 as usize];
-            self.free[function.0 as usize] = node.parent;
-            *node = Node { registers: node.registers, slots: node.slots, ..fresh };
-            return free;
+        if let Some(node) = self.reuse_node(function, parent, site, path) {
+            return node;
         }
         let at = self.registers.len();
         let count = program.function(function).node_registers as usize;
         let (used, ceiling) = (self.bytes(), self.ceiling);
         make_room(&mut self.registers, count, || ceiling.saturating_sub(used));
         self.registers.resize(at + count, Value::None);
-        self.add_node(Node { registers: at as u32, ..fresh })
+        self.add_node(Node { registers: at as u32, ..Node::fresh(function, parent, site, path) })
+    }
+
+    /// A released node of `function`, as a new one; `None` if there is none.
+    #[inline(always)]
+    pub(super) fn reuse_node(
+        &mut self,
+        function: FunctionId,
+        parent: NodeId,
+        site: u32,
+        path: u128,
+    ) -> Option<NodeId> {
+        let free = self.free.get_mut(function.0 as usize).filter(|free| **free != NodeId::NONE)?;
+        let id = *free;
+        let node = &mut self.nodes[id.0 as usize];
+        *free = node.parent;
+        let (registers, slots) = (node.registers, node.slots);
+        *node = Node { registers, slots, ..Node::fresh(function, parent, site, path) };
+        Some(id)
     }
 
     /// Whether the run has so many activations that a function that calls itself last hands its registers over. A call with
@@ -417,15 +429,39 @@ impl<S: Scalar> State<S> {
             _ => &mut self.free[node.function.0 as usize],
         };
         node.parent = std::mem::replace(free, id);
-        self.drop_values(program, id);
+        if node.slots == Node::EMPTY {
+            node.slots = u32::MAX;
+        } else {
+            self.drop_values(program, id);
+        }
+    }
+
+    /// Drops the contents of an activation with so many registers, which returns after the call that it makes.
+    #[inline]
+    pub(super) fn drop_before_return(&mut self, id: NodeId, count: usize) {
+        self.drop_registers(id, count);
+        self.nodes[id.0 as usize].slots = Node::EMPTY;
+    }
+
+    /// Notes that a register of an activation may have got shared data.
+    #[inline]
+    pub(super) fn fill(&mut self, id: NodeId) {
+        let node = &mut self.nodes[id.0 as usize];
+        if node.slots == Node::EMPTY {
+            node.slots = u32::MAX;
+        }
     }
 
     /// Drops the shared data in the registers of a node, which nobody reads any more.
     #[inline]
     pub(crate) fn drop_values(&mut self, program: &Program<S>, id: NodeId) {
-        let node = &self.nodes[id.0 as usize];
-        let (function, at) = (node.function, node.registers as usize);
-        let count = program.function(function).node_registers as usize;
+        let function = self.nodes[id.0 as usize].function;
+        self.drop_registers(id, program.function(function).node_registers as usize);
+    }
+
+    #[inline]
+    fn drop_registers(&mut self, id: NodeId, count: usize) {
+        let at = self.nodes[id.0 as usize].registers as usize;
         let registers = &mut self.registers[at..at + count];
         registers.iter_mut().filter(|value| !value.is_plain()).for_each(|value| *value = Value::None);
     }

@@ -9,7 +9,7 @@ use super::memo;
 use super::outcome::{Continuation, Stop};
 use super::registers::Registers;
 use super::state::{FutureId, NodeId, State, Status};
-use crate::code::{Function, FunctionId, Mode, Place, Site, SiteId, SiteKind};
+use crate::code::{Function, FunctionId, Mode, Op, Operand, Place, Site, SiteId, SiteKind};
 use crate::fault::Fault;
 use crate::value::{Closure, Memo, Value, index, iter_get, iter_len, ops};
 use niwaki_math::Scalar;
@@ -47,6 +47,35 @@ pub(super) fn defaults<'a, S: Scalar>(
         Place::Constant => &f.constants[default.index()],
         _ => &closure.captures[default.index() - needed],
     }))
+}
+
+/// Stores the result of a call in the activation that waits for it.
+#[inline(always)]
+fn receive<S: Scalar>(state: &mut State<S>, node: NodeId, base: usize, site: &Site, value: Value<S>) {
+    // Depth first, a future has returned before its handle exists.
+    let value = if site.kind.gives_future() { Value::returned(value) } else { value };
+    let register = &mut state.registers[base + site.to.index()];
+    // The most frequent case is a function that returns nothing, in a repeated call.
+    if !matches!((&value, &register), (Value::None, Value::None)) {
+        let is_plain = value.is_plain();
+        register.store(value);
+        if !is_plain {
+            state.fill(node);
+        }
+    }
+}
+
+/// The operand that a caller returns after a call that comes last, unless it has to take a step for that.
+#[inline]
+fn returned<S: Scalar>(f: &Function<S>, site: &Site) -> Option<Operand> {
+    let mut at = site.next;
+    loop {
+        match f.code[at as usize] {
+            Op::Jump { target } if target > at => at = target,
+            Op::Return { a } => return Some(a),
+            _ => return None,
+        }
+    }
 }
 
 impl<S: Scalar> Machine<'_, S> {
@@ -277,7 +306,7 @@ impl<S: Scalar> Machine<'_, S> {
             }
         }
         if site.is_tail {
-            state.drop_values(self.program, node);
+            state.drop_before_return(node, r.f.node_registers.into());
         }
         Ok(created)
     }
@@ -328,39 +357,49 @@ impl<S: Scalar> Machine<'_, S> {
         Ok(Continuation::Next)
     }
 
-    /// Returns from an activation, and returns where to continue, if its future continues.
+    /// Returns from an activation, and returns where to continue, if its future continues. Callers that do nothing more
+    /// than to return are passed, unless held choices have to be looked for in each.
     #[inline]
     pub(super) fn give_back(
         &mut self,
         state: &mut State<S>,
         future: FutureId,
-        node: NodeId,
-        value: Value<S>,
+        mut node: NodeId,
+        mut value: Value<S>,
     ) -> Option<(NodeId, u32)> {
-        let (above, number, memo) = {
-            let n = &state.nodes[node.0 as usize];
-            (n.parent, n.site as usize, n.memo())
-        };
-        state.release(self.program, node);
-        if above == NodeId::NONE {
-            state.returned(future, value);
-            return None;
+        loop {
+            let (above, number, memo) = {
+                let n = &state.nodes[node.0 as usize];
+                (n.parent, n.site as usize, n.memo())
+            };
+            state.release(self.program, node);
+            if above == NodeId::NONE {
+                state.returned(future, value);
+                return None;
+            }
+            if let Some(memo) = memo {
+                state.settle(FutureId(memo), value.clone());
+            }
+            let (function, base) = {
+                let parent = &state.nodes[above.0 as usize];
+                (parent.function, parent.registers as usize)
+            };
+            let f = self.program.function(function);
+            let site = &f.sites[number];
+            if site.is_tail
+                && self.held.is_none()
+                && let Some(a) = returned(f, site)
+            {
+                if a.is_constant() {
+                    value = f.constants[a.index()].clone();
+                } else if site.kind.gives_future() {
+                    value = Value::returned(value);
+                }
+                node = above;
+                continue;
+            }
+            receive(state, above, base, site, value);
+            return Some((above, site.next));
         }
-        if let Some(memo) = memo {
-            state.settle(FutureId(memo), value.clone());
-        }
-        let (function, base) = {
-            let parent = &state.nodes[above.0 as usize];
-            (parent.function, parent.registers as usize)
-        };
-        let site = &self.program.function(function).sites[number];
-        // Depth first, a future has returned before its handle exists.
-        let value = if site.kind.gives_future() { Value::returned(value) } else { value };
-        let register = &mut state.registers[base + site.to.index()];
-        // The most frequent case is a function that returns nothing, in a repeated call.
-        if !matches!((&value, &register), (Value::None, Value::None)) {
-            register.store(value);
-        }
-        Some((above, site.next))
     }
 }

@@ -1,5 +1,6 @@
 //! A machine: a program, limits, and scratch space for any number of states.
 
+use super::ask::LogsOfQuestions;
 use super::cache::DistCache;
 use super::held::Held;
 use super::ids::NodeId;
@@ -90,7 +91,11 @@ pub struct Machine<'p, S: Scalar = f64> {
     pub(super) shapes: Vec<Shape>,
     pub(super) cache: DistCache<S>,
     pub(super) logs: LastLog<S>,
+    pub(super) logs_of_questions: LogsOfQuestions<S>,
     pub(super) here: Here,
+    /// The activation that machine code has called, and whether the run pauses at its factor.
+    pub(super) called: NodeId,
+    pub(super) pauses: bool,
     /// Whether the machine runs many runs at once; these separate where their memory would have to be counted.
     pub(super) in_lanes: bool,
 }
@@ -111,7 +116,10 @@ impl<'p, S: Scalar> Machine<'p, S> {
             shapes: Vec::new(),
             cache: DistCache::holding(limits.bytes / 16),
             logs: LastLog::default(),
+            logs_of_questions: Default::default(),
             here: Here { node: NodeId::NONE, function: program.entry, pc: 0, scratch: 0 },
+            called: NodeId::NONE,
+            pauses: false,
             in_lanes: false,
         }
     }

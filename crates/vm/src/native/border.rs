@@ -11,7 +11,7 @@ use super::typed::Typed;
 use super::vectors::{DATA, LENGTH};
 use super::write::{Cursor, PLAIN, PendingExit, Writer};
 use crate::code::register::{Kind, PLAIN_TAGS, Reg};
-use crate::code::routine::{Exchange, Exit, NOT_ENTERED};
+use crate::code::routine::{Exchange, Exit, NOT_ENTERED, Then};
 use crate::value::Range;
 use niwaki_native::codegen::ir::types::{F64, I64};
 use niwaki_native::codegen::ir::{Block, InstBuilder, StackSlotData, StackSlotKind, Value};
@@ -56,14 +56,20 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         self.b.switch_to_block(self.guards);
         self.guard(inputs, refused);
         self.refuse_shared(overwritten, refused);
-        for (variable, at) in self.counters() {
-            let left = self.b.ins().load(I64, PLAIN, self.exchange, at);
+        for (variable, at) in [(self.steps, STEPS), (self.bytes, BYTES)] {
+            // A choice takes bytes also of code that charges nothing.
+            let left = if self.counts { self.load_exchange(at) } else { self.int(0) };
             self.b.def_var(variable, left);
         }
         self.b.ins().jump(self.begin, &[]);
         self.b.switch_to_block(refused);
         let answer = self.int(NOT_ENTERED);
         self.b.ins().return_(&[answer]);
+    }
+
+    /// A number of the exchange.
+    pub(super) fn load_exchange(&mut self, at: i32) -> Value {
+        self.b.ins().load(I64, PLAIN, self.exchange, at)
     }
 
     /// The numbers of the exchange that the code changes.
@@ -259,6 +265,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             base: cursor.base,
             pc: pc as u32,
             has_shared: false,
+            then: Then::Continues,
         };
         let (registers, instructions) = (registers.collect(), cursor.instructions);
         self.pending_exits.push(PendingExit { block, exit, registers, instructions });

@@ -8,12 +8,10 @@
 
 use crate::builtins::builtin;
 use crate::code::register::{FreshForm, Kind, Part, Parts, Reg};
+use crate::code::routine::NO_ANSWER;
 use crate::value::{Range, Value, index, iter_len};
 use niwaki_math::Scalar;
 use std::sync::Arc;
-
-/// The mark of a call without an answer.
-pub(super) const NO_ANSWER: u64 = 255;
 
 /// Stores the word of a value, and returns its mark.
 fn store_word(value: &Value, out: &mut u64) -> u64 {

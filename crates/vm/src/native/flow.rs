@@ -1,8 +1,10 @@
 //! The flow of a function whose code is written: the registers that are live at each place, and the targets of
 //! jumps.
 
+use super::choose::may_choose;
 use super::functions::has_machine_code;
 use crate::builtins::builtin;
+use crate::code::entries::Place as At;
 use crate::code::flow::{Bits, live_before, reads_and_writes, successors};
 use crate::code::register::Reg;
 use crate::code::{Function, Mode, Op, Operand, Place};
@@ -64,7 +66,7 @@ pub(super) fn registers(f: &Function) -> Vec<Reg> {
 /// The instructions where machine code may begin: the start of a pure function, the targets of backward jumps,
 /// and the places where a function that can suspend begins or continues after a site. A place after a site must
 /// have enough instructions before the next site.
-pub(super) fn entries<S: Scalar>(f: &Function<S>) -> Vec<u32> {
+pub(super) fn entries<S: Scalar>(f: &Function<S>) -> Vec<At> {
     let back = f.code.iter().enumerate().filter_map(|(at, op)| match *op {
         Op::Jump { target }
         | Op::JumpIf { target, .. }
@@ -77,27 +79,36 @@ pub(super) fn entries<S: Scalar>(f: &Function<S>) -> Vec<u32> {
         _ => None,
     });
     let first = (f.mode == Mode::Pure).then_some(0);
+    let always = back.chain(first).map(|pc| At { pc, for_choices: false });
     let after = f.code.iter().enumerate().filter(|(_, op)| matches!(op, Op::Site { .. }));
     let after = after.map(|(at, _)| at + 1).chain((f.mode != Mode::Pure).then_some(0));
-    let lines = after.filter(|at| straight_length(f, *at) >= MIN_STRAIGHT).map(|at| at as u32);
-    let mut all: Vec<u32> = back.chain(first).chain(lines).collect();
+    let lines = after.filter_map(|at| {
+        let for_choices = straight_length(f, at, false) < MIN_STRAIGHT;
+        let is_worth = !for_choices || straight_length(f, at, true) >= MIN_STRAIGHT;
+        is_worth.then_some(At { pc: at as u32, for_choices })
+    });
+    let mut all: Vec<At> = always.chain(lines).collect();
     all.sort_unstable();
-    all.dedup();
+    all.dedup_by_key(|place| place.pc);
     all.truncate(usize::from(u16::MAX));
     all
 }
 
-/// The number of instructions from `from` on that have machine code, without moves.
-fn straight_length<S: Scalar>(f: &Function<S>, from: usize) -> usize {
-    let has_code = |op: &&Op| match op {
-        Op::Add { .. } | Op::Sub { .. } | Op::Mul { .. } | Op::Div { .. } | Op::Binary { .. } => true,
-        Op::Neg { .. } | Op::Not { .. } | Op::Field { .. } | Op::Tuple { .. } | Op::Unpack { .. } => true,
-        Op::Move { .. } | Op::Jump { .. } | Op::JumpIf { .. } | Op::JumpUnless { .. } => true,
-        Op::JumpUnlessCompare { .. } | Op::Length { .. } | Op::Next { .. } | Op::CallPure { .. } => true,
-        Op::CheckSet { .. } => true,
-        Op::Builtin { id, .. } => has_machine_code(builtin::<S>(*id).name),
-        _ => false,
+/// The number of instructions from `from` on that have machine code, without moves. A choice, if choices have code, is
+/// worth as many as a straight piece must have.
+fn straight_length<S: Scalar>(f: &Function<S>, from: usize, with_choices: bool) -> usize {
+    let length_of = |op: &Op| match op {
+        Op::Move { .. } | Op::CheckSet { .. } | Op::Jump { .. } => Some(0),
+        Op::Add { .. } | Op::Sub { .. } | Op::Mul { .. } | Op::Div { .. } | Op::Binary { .. } => Some(1),
+        Op::Neg { .. } | Op::Not { .. } | Op::Field { .. } | Op::Tuple { .. } | Op::Unpack { .. } => Some(1),
+        Op::JumpIf { .. } | Op::JumpUnless { .. } | Op::JumpUnlessCompare { .. } => Some(1),
+        Op::Length { .. } | Op::Next { .. } | Op::CallPure { .. } => Some(1),
+        Op::Builtin { id, .. } => has_machine_code(builtin::<S>(*id).name).then_some(1),
+        Op::Clear { .. } => with_choices.then_some(0),
+        Op::Site { site } => {
+            (with_choices && may_choose(&f.sites[usize::from(site.0)])).then_some(MIN_STRAIGHT)
+        }
+        _ => None,
     };
-    let moves = |op: &&Op| matches!(op, Op::Move { .. } | Op::CheckSet { .. } | Op::Jump { .. });
-    f.code.iter().skip(from).take_while(has_code).filter(|op| !moves(op)).count()
+    f.code.iter().skip(from).map_while(length_of).sum()
 }

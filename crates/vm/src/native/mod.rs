@@ -27,15 +27,17 @@
 //! * `write`: one piece of code for each instruction and each combination of kinds that reaches it;
 //!   `registers`: the model's registers during the writing; `flow`: which registers are live;
 //! * `operate`: the instructions; `numbers`, `vectors`, `functions`: arithmetic, vectors and tuples, built-in
-//!   functions;
+//!   functions; `choose`: choices and factors; `activations`: calls of functions that can suspend;
 //! * `typed`: a value in the processor; `calls`: functions that the code calls.
 //!
 //! Source: Chevalier-Boisvert & Feeley, "Simple and Effective Type Check Removal through Lazy Basic Block
 //! Versioning" (ECOOP 2015), with all versions written at once.
 
+mod activations;
 mod background;
 mod border;
 mod calls;
+mod choose;
 mod entries;
 mod flow;
 mod functions;
@@ -47,4 +49,5 @@ mod typed;
 mod vectors;
 mod write;
 
+pub(crate) use choose::kind_of_draws;
 pub(crate) use entries::{entries_of, write};

@@ -1,10 +1,10 @@
 //! The instructions that have machine code.
 
-use super::calls::{self, NO_ANSWER};
+use super::calls;
 use super::typed::{Number, Typed, TypedOperand};
 use super::write::{Cursor, PLAIN, Progress, Writer};
 use crate::code::register::{Form, FreshForm, Kind};
-use crate::code::routine::{Call, Exchange};
+use crate::code::routine::{Call, Exchange, NO_ANSWER};
 use crate::code::{Args, Binary, FunctionId, Op, Operand};
 use crate::value::{Value as Model, index};
 use niwaki_native::codegen::ir::condcodes::IntCC;
@@ -116,6 +116,12 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             Op::Builtin { to, id, args } => return self.builtin(cursor, pc, to, id, args),
             Op::CallPure { to, function, args } => {
                 return self.call(cursor, pc, to, FunctionId(u32::from(function)), args);
+            }
+            Op::Site { site } => return self.ask(cursor, pc, site),
+            // Only runs that keep their activations have something to clear, and these ask nothing.
+            Op::Clear { .. } => {
+                self.leave_unless_asking(cursor, pc);
+                cursor.asks = true;
             }
             Op::Return { a } => {
                 if cursor.calls.is_empty() {

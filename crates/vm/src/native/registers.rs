@@ -132,6 +132,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
     ) {
         let reg = Self::reg(cursor, o);
         self.written.insert(reg);
+        self.writes_node |= matches!(reg, Reg::Node(_)) && !cursor.asks;
         self.define(reg, typed);
         cursor.kinds.insert(reg, typed.kind());
         match sample.filter(|_| !typed.kind().is_plain()) {
@@ -151,6 +152,12 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
 
     /// Calls the function at an address.
     pub(super) fn call_outside(&mut self, function: *const u8, args: &[Value], answer: Option<Type>) -> Inst {
+        let address = self.int(function as i64);
+        self.call_found(address, args, answer)
+    }
+
+    /// Calls the function whose address the code has found.
+    pub(super) fn call_found(&mut self, address: Value, args: &[Value], answer: Option<Type>) -> Inst {
         let mut signature = Signature::new(self.convention);
         for value in args {
             let ty = self.b.func.dfg.value_type(*value);
@@ -158,7 +165,6 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         }
         signature.returns.extend(answer.map(AbiParam::new));
         let signature = self.b.import_signature(signature);
-        let address = self.int(function as i64);
         self.b.ins().call_indirect(signature, address, args)
     }
 

@@ -40,7 +40,7 @@ pub(super) fn routine<'v>(
     let overwritten: Vec<Reg> =
         writer.written.iter().filter(|reg| !writer.inputs.contains_key(reg)).copied().collect();
     writer.write_guards(&inputs, &overwritten);
-    let Writer { mut b, constants, written, names, lists, counts, divides, .. } = writer;
+    let Writer { mut b, constants, written, names, lists, counts, divides, writes_node, .. } = writer;
     b.seal_all_blocks();
     b.finalize(module.target_config());
     if divides {
@@ -58,7 +58,6 @@ pub(super) fn routine<'v>(
             Reg::Node(_) | Reg::Outer(_) => None,
         });
     let scratch_end = registers_of_machine.max().unwrap_or(0);
-    let writes_node = written.iter().any(|reg| matches!(reg, Reg::Node(_)));
     // SAFETY: the code was written with this signature, and it names no other memory than its owner has. It tests
     // the kinds of its inputs before it reads them.
     #[allow(unsafe_code)]

@@ -45,6 +45,7 @@ struct Key {
     function: FunctionId,
     base: u32,
     pc: u32,
+    asks: bool,
     kinds: Vec<(Reg, Kind)>,
 }
 
@@ -56,6 +57,8 @@ pub(super) struct Cursor<'v> {
     pub base: u32,
     pub(super) kinds: BTreeMap<Reg, Kind>,
     pub(super) samples: HashMap<Reg, &'v Model>,
+    /// Whether only a run that may ask comes here.
+    pub(super) asks: bool,
     /// The number of instructions since the last count.
     pub(super) instructions: i64,
     /// The number of vectors, tuples and ranges that the code has made so far.
@@ -105,6 +108,8 @@ pub(super) struct Writer<'p, 'v, 'b> {
     pub(super) lists: Vec<Box<[(Reg, Kind)]>>,
     /// Whether the code takes steps or charges memory.
     pub(super) counts: bool,
+    /// Whether a run that may not ask writes registers of the activation.
+    pub(super) writes_node: bool,
     /// Whether the code divides whole numbers.
     pub(super) divides: bool,
     /// The block that tests and loads the inputs, and the block after it.
@@ -152,6 +157,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
             names: vec![],
             lists: vec![],
             counts: false,
+            writes_node: false,
             divides: false,
             guards,
             begin,
@@ -206,6 +212,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
             base: 0,
             kinds: BTreeMap::new(),
             samples: HashMap::new(),
+            asks: false,
             instructions: 0,
             fresh_count: 0,
         };
@@ -266,6 +273,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
             function: cursor.function,
             base: cursor.base,
             pc: pc as u32,
+            asks: cursor.asks,
             kinds: cursor.kinds.iter().map(|(reg, kind)| (*reg, *kind)).collect(),
         };
         let block = match self.pieces.get(&key) {

@@ -14,6 +14,7 @@ impl<S: Scalar> From<Draw<S>> for Value<S> {
         match draw {
             Draw::Int(n) => Value::Int(n),
             Draw::Real(x) => Value::Real(x),
+            Draw::Bool(b) => Value::Bool(b),
             other => of_row(other),
         }
     }

@@ -6,18 +6,80 @@
 mod halves;
 
 use halves::Halves;
+use niwaki_math::{Dist, LastLogs, StreamKey};
 use niwaki_vm::code::Program;
 use niwaki_vm::core::parse::parse;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
+use niwaki_vm::machine::held::Held;
 use niwaki_vm::machine::{Limits, Machine};
 use niwaki_vm::passes::compile;
 use niwaki_vm::value::{Range, Value, repr};
 use std::sync::Arc;
 
+/// Answers that draw every choice from its distribution, and note all that happens in its order.
+#[derive(Default)]
+struct Drawn {
+    events: Vec<String>,
+    /// How many choices machine code has asked for.
+    by_code: usize,
+    /// Whether the run pauses at each factor.
+    pauses: bool,
+}
+
+impl Drawn {
+    fn draw(&mut self, address: u128, dist: &Dist) -> Value {
+        let (draw, log) = dist.sample_and_score(&mut StreamKey::new(7, 0, 0).at(address));
+        self.events.push(format!("{address} {draw:?} {log:?}"));
+        draw.into()
+    }
+
+    fn note(&mut self, log: f64) -> Answer<()> {
+        self.events.push(format!("factor {log:?}"));
+        if self.pauses { Answer::Pause } else { Answer::Go(()) }
+    }
+}
+
+impl Answers<f64> for Drawn {
+    const LOGS: bool = true;
+    const DRAWS: bool = true;
+
+    fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
+        Ok(Answer::Go(self.draw(at.address(), dist)))
+    }
+
+    fn drawn(&mut self, address: u128, dist: &Dist, logs: &mut LastLogs<f64>) -> Option<Value> {
+        self.by_code += 1;
+        let known = dist.sample_and_score_with(&mut StreamKey::new(7, 0, 0).at(address), logs);
+        assert_eq!(known, dist.sample_and_score(&mut StreamKey::new(7, 0, 0).at(address)));
+        Some(self.draw(address, dist))
+    }
+
+    fn score(&mut self, _: &At<'_, f64>, _: Factor, log: f64) -> Result<Answer<()>, Fault> {
+        Ok(self.note(log))
+    }
+
+    fn scored(&mut self, log: f64) -> Answer<()> {
+        self.note(log)
+    }
+
+    fn host(&mut self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
+        Ok(args[0].clone())
+    }
+}
+
 /// The result of a run, or the fault with its stack; the steps of the run, and the bytes that it is charged.
-fn outcome(program: &Program, limits: Limits) -> (String, u64, usize) {
-    let mut machine = Machine::new(program, limits);
+type Outcome = (String, u64, usize);
+
+fn outcome(program: &Program, limits: Limits) -> Outcome {
+    outcome_by(program, limits, None, &mut Drawn::default())
+}
+
+/// The outcome of a run by these answers, which continues where they pause it.
+fn outcome_by(program: &Program, limits: Limits, held: Option<&Held>, answers: &mut Drawn) -> Outcome {
+    let mut machine = Machine::new(program, limits).holding(held);
     let mut state = machine.start(&[], true).unwrap();
-    match machine.finish(&mut state, &mut Halves) {
+    match machine.finish(&mut state, answers) {
         Ok(()) => (repr(&state.result()).unwrap().to_string(), state.steps(), state.bytes()),
         Err(fault) => (format!("{fault:?}"), state.steps(), state.bytes()),
     }
@@ -216,6 +278,110 @@ fn overwritten_values_are_dropped() {
         assert_eq!(interpreted, compiled);
         assert_eq!(Arc::strong_count(&range), 1);
     }
+}
+
+/// A walk that branches: choices of families with and without code of their own, with parameters that are constants and
+/// others, a factor after each step, and calls, of which the last passes shared data back.
+const WALK: &str = r#"(module
+    (const 0 (dist categorical (list 0.2 0.3 0.5)))
+    (fn "walk" (params $x $sd $n)
+        (set $y (sample (dist gaussian $x $sd))) (set $u (sample (dist uniform -1 $n)))
+        (set $k (sample (data 0))) (set $g (sample (dist gamma 2.0 1.5)))
+        (set $z (add (mul $u $k) (mul 0.125 $g)))
+        (do (factor (sub 0.5 (mul $z 0.25))))
+        (set $p (tuple $y (list $z)))
+        (if (sample (dist bernoulli (div $n 20))) (then (set $z (add $z 1.0))))
+        (if (gt $n 1) (then (set $r (call "walk" (add $y $z) (sub $sd 0.0625) (sub $n 1)))
+            (set $z (add $z (index $r 0)))
+            (return (call "walk" $z (sub $sd 0.0625) (sub $n 2)))))
+        (return $p))
+    (fn "m" (params) (return (call "walk" 0.0 SD N))) (entry "m"))"#;
+
+fn walk(sd: &str, n: usize) -> [Program; 2] {
+    let text = WALK.replace("SD", sd).replace('N', &n.to_string());
+    let program = compile::<f64>(&parse(&text).unwrap(), vec![]).unwrap();
+    [program.clone().with_machine_code_after(0), program.with_machine_code_after(1)]
+}
+
+/// Machine code makes the choices, and their order, values, densities and bytes are those of the interpreter; also
+/// where the run pauses at factors, and where its steps or bytes end.
+#[test]
+fn choices_agree() {
+    let [plain, quick] = walk("1.0", 8);
+    let most = outcome(&plain, Limits::default());
+    for pauses in [false, true] {
+        for limits in (0..most.1 + 2)
+            .map(|steps| Limits { steps, ..Limits::default() })
+            .chain((most.2 / 2..most.2 + 8192).step_by(97).map(|bytes| Limits { bytes, ..Limits::default() }))
+        {
+            let [mut interpreted, mut compiled] = [(); 2].map(|()| Drawn { pauses, ..Drawn::default() });
+            let expected = outcome_by(&plain, limits, None, &mut interpreted);
+            assert_eq!(outcome_by(&quick, limits, None, &mut compiled), expected, "{limits:?}");
+            assert_eq!(compiled.events, interpreted.events, "{limits:?}");
+            assert!(interpreted.by_code == 0 && (compiled.by_code > 0 || limits != Limits::default()));
+        }
+    }
+    let mut compiled = Drawn::default();
+    outcome_by(&quick, Limits::default(), None, &mut compiled);
+    assert!(compiled.by_code > 200, "{} choices by machine code", compiled.by_code);
+}
+
+/// Code leaves before a choice whose parameters have no distribution: the fault is at its place, with the calls
+/// around it, after the same choices.
+#[test]
+fn a_fault_of_a_choice_agrees() {
+    let [plain, quick] = walk("0.25", 6);
+    let [mut interpreted, mut compiled] = [Drawn::default(), Drawn::default()];
+    let expected = outcome_by(&plain, Limits::default(), None, &mut interpreted);
+    assert!(expected.0.contains("bad-parameter") && expected.0.contains("`sd` of gaussian is 0.0"));
+    for _ in 0..3 {
+        compiled = Drawn::default();
+        assert_eq!(outcome_by(&quick, Limits::default(), None, &mut compiled), expected);
+        assert_eq!(compiled.events, interpreted.events);
+    }
+    assert!(interpreted.events.len() > 8 && compiled.by_code > 8);
+}
+
+/// Activations that ended with a call hold nothing, also where the call has returned shared data to them: with held
+/// choices each of them returns by itself.
+#[test]
+fn callers_that_return_hold_nothing() {
+    let text = "(module (fn \"f\" (params $r $n) (set $u (sample (dist uniform 0.0 1.0)))
+            (if (gt $n 0) (then (return (call \"f\" $r (sub $n 1))))) (return $r))
+        (fn \"m\" (params $r) (set $a (call \"f\" $r 4)) (do (factor (index $a 0))) (set $b (call \"f\" $r 4))
+            (return (index $b 1))) (entry \"m\"))";
+    let program = compile::<f64>(&parse(text).unwrap(), vec![]).unwrap();
+    let held = Held::new(&program, vec![("f/u".into(), Value::real(0.25))]).unwrap();
+    for (visits, held) in [(0, None), (1, None), (0, Some(&held)), (1, Some(&held))] {
+        let program = program.clone().with_machine_code_after(visits);
+        let range = Arc::new(Range::new(0, 9, 2).unwrap());
+        let mut machine = Machine::new(&program, Limits::default()).holding(held);
+        let mut state = machine.start(&[Value::Range(range.clone())], true).unwrap();
+        machine.finish(&mut state, &mut Drawn::default()).unwrap();
+        assert_eq!(repr(&state.result()).unwrap().to_string(), "2");
+        // The arguments of the run are the other owner.
+        assert_eq!(Arc::strong_count(&range), 2);
+    }
+}
+
+/// A run with held choices asks the interpreter for all of them.
+#[test]
+fn a_held_choice_leaves_to_the_interpreter() {
+    let [plain, quick] = walk("1.0", 4);
+    let path = "walk/walk/y".to_string();
+    let held = Held::new(&plain, vec![(path, Value::real(0.25))]).unwrap();
+    let [mut interpreted, mut compiled] = [Drawn::default(), Drawn::default()];
+    let expected = outcome_by(&plain, Limits::default(), Some(&held), &mut interpreted);
+    for _ in 0..3 {
+        outcome(&quick, Limits::default());
+        compiled = Drawn::default();
+        assert_eq!(outcome_by(&quick, Limits::default(), Some(&held), &mut compiled), expected);
+        assert_eq!(compiled.events, interpreted.events);
+    }
+    let factors = interpreted.events.iter().filter(|event| event.starts_with("factor")).count();
+    let choices = interpreted.events.len() - factors;
+    // Five choices and a factor in each activation; the held choice is a factor.
+    assert_eq!((factors, choices, compiled.by_code), (10, 44, 0));
 }
 
 /// Writes random programs: numbers, loops, branches, calls, elements; sometimes a fault.

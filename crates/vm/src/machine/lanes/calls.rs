@@ -154,6 +154,7 @@ impl Run<'_, '_> {
 
     fn release(&mut self, node: NodeId) {
         self.forget_values(node);
+        self.lanes.state.fill(node);
         self.lanes.state.release(self.machine.program, node);
     }
 
