@@ -16,7 +16,7 @@ import time
 import niwaki as nw
 from niwaki import gallery, guides
 from niwaki.guides.report import sentence, summary
-from niwaki.methods.shipped import FOLDER
+from niwaki.search.shipped import FOLDER
 from niwaki.targets import drawings
 from niwaki.targets.drawing import Drawing
 from niwaki.targets.sketches import Window

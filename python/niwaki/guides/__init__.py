@@ -16,7 +16,7 @@ from niwaki.guides.orders import OrderTraining, train_order
 from niwaki.guides.report import Round
 from niwaki.guides.settings import Training
 from niwaki.guides.training import EVERY, train_guide
-from niwaki.methods.shipped import shipped, usual
+from niwaki.search.shipped import shipped, usual
 
 __all__ = [
     "EVERY",

@@ -10,7 +10,6 @@ improve     a search for the best run, by several of these
 emulate     a search for the best run in few runs, by an emulator of its scene
 order       learned orders of futures
 guide       a network that draws choices in place of the prior
-shipped     the guides of the package
 kernels     Markov kernels, for chains
 method      the base class: a method as data
 checks      checks of types: kernels, proposals, guides

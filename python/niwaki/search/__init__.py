@@ -12,6 +12,7 @@ keeper      checkpoints of running searches: when they are written, and their st
 execution   the runs of a search one after the other, resumed, polished, and with warnings
 emulated    searches by an emulator: the choices of a model as a space, and whether they suit
 engine_runs one run of a search on the engine, by its method
+shipped     the guides of the package
 collisions  parts of a scene that break its constraints
 space       parameters of a model, as a row of the unit cube
 drag        parts dragged to a point, by the derivatives of a place, or by a number of the source

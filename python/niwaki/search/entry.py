@@ -17,7 +17,6 @@ from niwaki.errors.settings import MAX_MEMORY, MAX_STEPS, bad
 from niwaki.lang.compiled import arguments, task, translated
 from niwaki.lang.models import Model, as_model
 from niwaki.methods import Emulate, Forward, Improve, Method, Mh, Smc
-from niwaki.methods.shipped import usual
 from niwaki.result import Result
 from niwaki.result.parts import Hold
 from niwaki.result.progress import Watch
@@ -26,6 +25,7 @@ from niwaki.search.checkpoint import Checkpoint, resumed_seed
 from niwaki.search.checks import check_seed, fresh
 from niwaki.search.engine_runs import has_start, replay_choices
 from niwaki.search.request import Search
+from niwaki.search.shipped import usual
 from niwaki.targets.sketches import FREE, Score, no_self_intersection, volume_score
 from niwaki.targets.target import Target
 

@@ -13,8 +13,8 @@ from niwaki import gallery, guides
 from niwaki.errors import InputError
 from niwaki.gallery.vines import WINDOW, vines
 from niwaki.methods import Guide, importance, smc
-from niwaki.methods.shipped import FOLDER, names
 from niwaki.search import Search, SearchWarning
+from niwaki.search.shipped import FOLDER, names
 from niwaki.targets import drawings
 from specification import load
 

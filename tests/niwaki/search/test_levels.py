@@ -134,8 +134,8 @@ def test_an_edit_counts_its_own_work_alone() -> None:
     result = nw.run(hedge, 3.0, method=nw.improve(20, 6, rounds=400), score=score, seed=3)
     assert isinstance(result.info, ImproveInfo)
     works: dict[str, list[int]] = {}
-    for taken in result.info.rounds:
-        works.setdefault(taken.step, []).append(taken.work)
+    for entry in result.info.rounds:
+        works.setdefault(entry.step, []).append(entry.work)
     assert max(works["levels"]) < 12 * sum(works["move"]) / len(works["move"])
 
 

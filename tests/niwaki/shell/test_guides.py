@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from niwaki.methods import Guide
-from niwaki.methods.shipped import FOLDER
+from niwaki.search.shipped import FOLDER
 from niwaki.shell.main import app
 from PIL import Image
 from typer.testing import CliRunner
