@@ -74,7 +74,7 @@ class Improve(Method):
         population.
     proposal, guide
         The proposal and the guide that draw choices in place of the prior, in populations and in most of the parts that
-        are grown again, as for `importance`. The prior draws the other parts, and populations after two that died. No
+        are grown again, as for `importance`. The prior draws the other parts, and populations after one that died. No
         weight of prior over proposal corrects the draws: the best run counts by its score alone.
     """
 

@@ -45,7 +45,7 @@ const FORMS: [Form; 6] = [
 ];
 
 /// The first so many forms draw by the search's proposal. The prior draws the others, if the proposal leads to what is impossible.
-const BY_PROPOSAL: usize = 2;
+const BY_PROPOSAL: usize = 1;
 
 /// The number of the form by its name in reports; the first for an unknown name.
 pub(super) fn number_of(form: &str) -> usize {
