@@ -1,9 +1,10 @@
 //! The price of work, in instructions of a processor: a count, so that it is the same on every machine.
 //!
 //! A unit of work is a particle step, a proposal or a moved shape. Its price depends on the model, so it is estimated from one run.
-//! The price has the model's instructions, the choices that a proposal draws, the calls of functions of the host, and what decides how long sketches look at a shape:
-//! its corners, and the cells of a shape that is not convex. All are divided by the number of barriers of the run. The factors are
-//! rounded from counts of callgrind (`benches/counts.json`) and from the processor seconds of the problems of `benches/board.py`.
+//! The price has the model's instructions, the choices that a proposal draws, the calls of functions of the host, and what decides how
+//! long sketches look at a shape: its corners, and the cells of a shape that is not convex. All are divided by the number of barriers of
+//! the run. The factors are rounded from counts of callgrind (`benches/counts.json`) and from the processor seconds of the
+//! problems of `benches/board.py`.
 
 use niwaki_chain::walk::state::State;
 use niwaki_chain::walk::streams::Streams;

@@ -31,7 +31,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             registers: if site.is_tail { f.node_registers } else { 0 },
             may_hand_over: site.is_tail && function == cursor.function,
         };
-        let call = self.found_question(cursor, pc, offset_of!(Questions, call));
+        let call = self.question_address(cursor, pc, offset_of!(Questions, call));
         let words = [
             site.key as i64,
             (site.key >> 64) as i64,
@@ -39,7 +39,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             dropping.word().cast_signed(),
         ];
         let args = [&[self.exchange], &words.map(|word| self.int(word))[..]].concat();
-        let call = self.call_found(call, &args, Some(I64));
+        let call = self.call_pointer(call, &args, Some(I64));
         let first = self.b.inst_results(call)[0];
         let none = self.b.ins().icmp_imm_s(IntCC::Equal, first, 0);
         self.leave_if(cursor, pc, none);

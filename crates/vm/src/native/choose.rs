@@ -66,11 +66,11 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
 
     fn choose(&mut self, cursor: &mut Cursor<'v>, pc: usize, site: &Site) -> Option<Progress> {
         let (at, parameters, kind) = self.question(cursor, site)?;
-        let address = self.found_question(cursor, pc, at);
+        let address = self.question_address(cursor, pc, at);
         cursor.asks = true;
         let halves = [site.key as i64, (site.key >> 64) as i64].map(|half| self.int(half));
         let args = [&[self.exchange], &halves[..], &parameters[..]].concat();
-        let call = self.call_found(address, &args, Some(I64));
+        let call = self.call_pointer(address, &args, Some(I64));
         let mark = self.b.inst_results(call)[0];
         let other = self.b.ins().icmp_imm_s(IntCC::NotEqual, mark, kind.mark().cast_signed());
         self.leave_if(cursor, pc, other);
@@ -89,9 +89,9 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
     fn factor(&mut self, cursor: &Cursor<'v>, pc: usize, site: &Site) -> Option<Progress> {
         let log = *self.f(cursor).operands[site.args.range()].last()?;
         let log = self.parameter(cursor, log)?;
-        let score = self.found_question(cursor, pc, offset_of!(Questions, score));
+        let score = self.question_address(cursor, pc, offset_of!(Questions, score));
         self.leave_unless_finite(cursor, pc, log);
-        self.call_found(score, &[self.exchange, log], None);
+        self.call_pointer(score, &[self.exchange, log], None);
         let mut after = cursor.clone();
         after.count();
         self.end(&after, pc + 1, Then::Pauses);
@@ -99,7 +99,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
     }
 
     /// The address of a question; leaves if the code may not ask.
-    pub(super) fn found_question(&mut self, cursor: &Cursor<'v>, pc: usize, at: usize) -> Value {
+    pub(super) fn question_address(&mut self, cursor: &Cursor<'v>, pc: usize, at: usize) -> Value {
         self.leave_unless_asking(cursor, pc);
         let questions = self.load_exchange(offset_of!(Exchange, questions) as i32);
         self.b.ins().load(I64, PLAIN, questions, at as i32)

@@ -153,11 +153,11 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
     /// Calls the function at an address.
     pub(super) fn call_outside(&mut self, function: *const u8, args: &[Value], answer: Option<Type>) -> Inst {
         let address = self.int(function as i64);
-        self.call_found(address, args, answer)
+        self.call_pointer(address, args, answer)
     }
 
     /// Calls the function whose address the code has found.
-    pub(super) fn call_found(&mut self, address: Value, args: &[Value], answer: Option<Type>) -> Inst {
+    pub(super) fn call_pointer(&mut self, address: Value, args: &[Value], answer: Option<Type>) -> Inst {
         let mut signature = Signature::new(self.convention);
         for value in args {
             let ty = self.b.func.dfg.value_type(*value);
