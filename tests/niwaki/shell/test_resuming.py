@@ -84,7 +84,18 @@ def test_what_cannot_go_on_is_refused(tmp_path: Path) -> None:
 def test_a_search_that_begins_replaces_the_checkpoint_and_says_so(tmp_path: Path) -> None:
     (tmp_path / resume.NAME).write_text("of an older search\n")
     grown = run(
-        "grow", "spaceship", "--particles", "10", "--voxel", "0.5", "--no-picture", "--force", "-o", tmp_path
+        "grow",
+        "spaceship",
+        "--seed",
+        "1",
+        "--particles",
+        "10",
+        "--voxel",
+        "0.5",
+        "--no-picture",
+        "--force",
+        "-o",
+        tmp_path,
     )
     assert grown.exit_code == 0, grown.output
     assert "the checkpoint of an unfinished search" in grown.stderr
