@@ -45,11 +45,9 @@ def usual(model: Model[..., Any], sketches: Collection[str]) -> Guide | None:
         Names of the sketches of the score, such as "match_volume". The guide must have windows of no others.
     """
     guide = shipped(model) if _name(model) in USUAL else None
-    return (
-        guide
-        if guide is not None and {window for window, _ in guide.form["windows"]} <= set(sketches)
-        else None
-    )
+    if guide is None or not {window for window, _ in guide.form["windows"]} <= set(sketches):
+        return None
+    return guide
 
 
 def names() -> list[str]:

@@ -23,8 +23,8 @@ pub(super) struct QuestionsOf<S, A>(PhantomData<(S, A)>);
 
 impl<S: Scalar, A: Answers<S>> QuestionsOf<S, A> {
     pub const ALL: &'static Questions = &Questions {
-        gaussian: gaussian::<S, A>,
-        uniform: uniform::<S, A>,
+        gaussian: reals::<S, A, 0>,
+        uniform: reals::<S, A, 1>,
         bernoulli: bernoulli::<S, A>,
         held: held::<S, A>,
         score: score::<S, A>,
@@ -68,48 +68,25 @@ unsafe fn ask<S: Scalar, A: Answers<S>>(
     kind.mark()
 }
 
-/// Answers a choice from a family of two real parameters.
-///
+/// The families of two real parameters that have a question, by its number.
+const OF_REALS: [Family; 2] = [Family::Gaussian, Family::Uniform];
+
 /// # Safety
 /// As for [`ask`].
-#[inline(always)]
-unsafe fn ask_reals<S: Scalar, A: Answers<S>>(
+unsafe extern "C" fn reals<S: Scalar, A: Answers<S>, const QUESTION: usize>(
     exchange: *mut Exchange,
-    key: (u64, u64),
-    question: usize,
-    (family, a, b): (Family, f64, f64),
+    lo: u64,
+    hi: u64,
+    a: f64,
+    b: f64,
 ) -> u64 {
-    let Some(dist) = Dist::of_reals(family, S::from_f64(a), S::from_f64(b)) else { return NO_ANSWER };
+    let Some(dist) = Dist::of_reals(OF_REALS[QUESTION], S::from_f64(a), S::from_f64(b)) else {
+        return NO_ANSWER;
+    };
     // It holds numbers alone.
     let dist = ManuallyDrop::new(dist);
     // SAFETY: as above.
-    unsafe { ask::<S, A>(exchange, key, question, &dist) }
-}
-
-/// # Safety
-/// As for [`ask`].
-unsafe extern "C" fn gaussian<S: Scalar, A: Answers<S>>(
-    exchange: *mut Exchange,
-    lo: u64,
-    hi: u64,
-    mean: f64,
-    sd: f64,
-) -> u64 {
-    // SAFETY: as above.
-    unsafe { ask_reals::<S, A>(exchange, (lo, hi), 0, (Family::Gaussian, mean, sd)) }
-}
-
-/// # Safety
-/// As for [`ask`].
-unsafe extern "C" fn uniform<S: Scalar, A: Answers<S>>(
-    exchange: *mut Exchange,
-    lo: u64,
-    hi: u64,
-    least: f64,
-    most: f64,
-) -> u64 {
-    // SAFETY: as above.
-    unsafe { ask_reals::<S, A>(exchange, (lo, hi), 1, (Family::Uniform, least, most)) }
+    unsafe { ask::<S, A>(exchange, (lo, hi), QUESTION, &dist) }
 }
 
 /// # Safety

@@ -100,16 +100,16 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
 
     /// The address of a question; leaves if the code may not ask.
     pub(super) fn question_address(&mut self, cursor: &Cursor<'v>, pc: usize, at: usize) -> Value {
-        self.leave_unless_asking(cursor, pc);
-        let questions = self.load_exchange(offset_of!(Exchange, questions) as i32);
+        let questions = self.leave_unless_asking(cursor, pc);
         self.b.ins().load(I64, PLAIN, questions, at as i32)
     }
 
-    /// Leaves before the instruction if the code may not ask.
-    pub(super) fn leave_unless_asking(&mut self, cursor: &Cursor<'v>, pc: usize) {
+    /// Leaves before the instruction if the code may not ask. Returns the address of the questions.
+    pub(super) fn leave_unless_asking(&mut self, cursor: &Cursor<'v>, pc: usize) -> Value {
         let questions = self.load_exchange(offset_of!(Exchange, questions) as i32);
         let none = self.b.ins().icmp_imm_s(IntCC::Equal, questions, 0);
         self.leave_if(cursor, pc, none);
+        questions
     }
 
     /// Leaves as many bytes less as the log takes for a choice. The machine counts them.
