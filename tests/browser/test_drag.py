@@ -99,6 +99,8 @@ def has_followed(page, address, x, y):
     page.keyboard.up("Shift")
     if page.evaluate("window.__studio.view.picked.run") == run:
         assert "This part cannot be moved there." in page.locator(".notice").first.inner_text()
+        # The branch is back in its place.
+        until(page, "window.__studio.shown.role == 'result' && window.__studio.isStill")
         return False
     at_rest(page)
     until(page, "window.__studio.isStill")

@@ -15,7 +15,7 @@ pytest.importorskip("starlette")
 from niwaki.studio import messages as m
 from niwaki.studio import process
 from niwaki.studio.process import Worker
-from niwaki.studio.session import Session, begin, reload, reshaping, searching
+from niwaki.studio.session import Session, begin, loading, reload, reshaping, searching
 from niwaki.studio.window import Window
 from niwaki.studio.worker import models, offers
 from studio_process import PILE
@@ -110,6 +110,38 @@ def test_a_file_that_is_mended_while_it_loads_is_not_waited_for(tmp_path, monkey
             await reload(session, {place})
             await first
             assert session.problem is None and session.model is not None and session.model.parameters
+        finally:
+            await session.end()
+
+    alive(work())
+
+
+def test_the_changes_of_one_save_are_one_reload(tmp_path, monkeypatch):
+    place = tmp_path / "pile.py"
+    place.write_text(PILE)
+    reloads = []
+
+    async def load(session):
+        reloads.append(place.read_text())
+        await asyncio.sleep(0.2)
+
+    async def work() -> None:
+        session = Session(tmp_path / "session", [str(place)])
+        try:
+            await begin(session)
+            monkeypatch.setattr(loading, "load", load)
+            place.write_text(PILE + "\n")
+            # Two changes while the file loads, and a third right after.
+            await asyncio.gather(reload(session, {place}), reload(session, {place}))
+            await reload(session, {place})
+            assert len(reloads) == 1
+            # Another text is another save, and so is the same text later: what the model reads may have changed.
+            place.write_text(PILE)
+            await reload(session, {place})
+            assert len(reloads) == 2
+            monkeypatch.setattr(session, "settled", 0.0)
+            await reload(session, {place})
+            assert len(reloads) == 3
         finally:
             await session.end()
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+import math
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +18,8 @@ from niwaki.studio.window import Window, newest
 
 #: Models of the first screen.
 GLIMPSES = 6
+#: Seconds after a reload in which the same text of the file belongs to the same save.
+SETTLING = 1.0
 
 
 async def begin(session: Session, glimpses: bool = True) -> None:
@@ -166,12 +170,32 @@ def _with_source(sizes: m.Sizes, source: str | None) -> m.Sizes:
 
 
 async def reload(session: Session, paths: set[Path]) -> None:
-    """Load models of changed files again, and run the active result again with its choices."""
+    """Load models of changed files again, and run the active result again with its choices.
+
+    The changes of one save may arrive apart: during a reload, and `SETTLING` seconds after it, the same text is not
+    loaded again.
+    """
     for worker in (session.desk, session.searcher):
         await worker.drop(paths)
     reference = session.document.model
-    if reference is None or Path(reference.rpartition(":")[0] or reference) not in paths:
+    place = Path() if reference is None else Path(reference.rpartition(":")[0] or reference)
+    if place not in paths:
         return
-    await load(session)
-    if session.problem is None and session.document.picked is not None:
-        await reshaping.reshape(session)
+    save, clock = (place, await asyncio.to_thread(_content, place)), asyncio.get_running_loop().time
+    if save == session.save and clock() < session.settled:
+        return
+    session.save, session.settled = save, math.inf
+    try:
+        await load(session)
+        if session.problem is None and session.document.picked is not None:
+            await reshaping.reshape(session)
+    finally:
+        session.settled = clock() + SETTLING
+
+
+def _content(path: Path) -> bytes | None:
+    """Return the bytes of a file; None if it cannot be read."""
+    try:
+        return path.read_bytes()
+    except OSError:
+        return None

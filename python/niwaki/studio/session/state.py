@@ -54,6 +54,8 @@ class Session:
         The lists of models and targets.
     model
         The present model, as last loaded.
+    save, settled
+        The file of the last reload and its bytes; the time from which the same bytes are another save.
     problem, note, losses
         The error of the model's file; a note on the goals; a note on impossible runs of the last search.
     searching
@@ -92,6 +94,8 @@ class Session:
         self.models: list[m.ModelInfo] = []
         self.targets: list[str] = []
         self.model: m.ModelInfo | None = None
+        self.save: tuple[Path, bytes | None] | None = None
+        self.settled = 0.0
         self.problem: m.Problem | None = None
         self.note = self.losses = ""
         self.searching: m.Searching | None = None
