@@ -43,7 +43,8 @@ impl Selection {
 
     /// Whether every choice is chosen with the same weight.
     pub fn is_all(&self) -> bool {
-        *self == Selection::default()
+        let Selection { sites, depth, calls, weights } = self;
+        sites.is_empty() && depth.is_empty() && calls.is_empty() && weights.is_empty()
     }
 
     /// Whether a selected site may draw real numbers. Where the program does not decide this, the trace does, if it reached

@@ -56,6 +56,8 @@ pub struct Walk {
     pub(crate) visit: u64,
     /// The number of particle steps of regrown parts.
     pub(crate) grown: u64,
+    /// The number of shapes that were moved before the chain began.
+    moved_before: u64,
     /// The last decision.
     pub(crate) last: Decision,
     /// The number of barriers (primitives, factors and observations) of a state, if it is fixed.
@@ -77,6 +79,7 @@ impl Walk {
             counts: Counts::new(program),
             best: Best::new(&state),
             samples: Samples::new(0, 0),
+            moved_before: state.moved,
             state,
             beta: 1.0,
             strategy: Strategy::C3,
@@ -96,9 +99,9 @@ impl Walk {
         (self.beta, self.barriers) = (beta, barriers);
     }
 
-    /// The work so far: the number of proposals, of particle steps of regrown parts, and of shapes that proposals added or removed.
+    /// The work of this chain: the number of proposals, of particle steps of regrown parts, and of shapes that proposals added or removed.
     pub fn work(&self) -> u64 {
-        self.visit + self.grown + self.state.moved
+        self.visit + self.grown + self.state.moved - self.moved_before
     }
 
     /// The decision on the last proposal.

@@ -5,8 +5,8 @@
 //!    It is fixed then. What tells niches apart follows from it, or from the names that a user gave (`niche`).
 //! 3. Generations of short searches, side by side. Some turn one choice of a good run so that a niche comes that was never met, and
 //!    grow what it brings; others improve the run of a promising niche with its choices held; where there are fewer niches
-//!    than results, and a result may not be far below the best, others start from a population of their own. They end after three
-//!    times the work of the first search.
+//!    than results, and a result may not be far below the best, others start from a population of their own. They end before
+//!    three times the work of the first search, but there is at least one generation.
 //! 4. The results are chosen by niche, then by look (`choose`, `look`).
 //!
 //! A generation is planned from the archive alone, and its searches are counted, so the bits do not depend on threads. The archive is
@@ -107,6 +107,8 @@ struct Stored<R> {
     #[serde(default)]
     generations: u64,
     work: u64,
+    #[serde(default)]
+    last: u64,
     time: Duration,
     invalid: Counts,
 }
@@ -148,6 +150,8 @@ struct Archive<'a> {
     searches: u64,
     generations: u64,
     work: u64,
+    /// The work of the last generation.
+    last: u64,
 }
 
 /// Several results that differ, best first; a search for the best as it is alone comes first. Of a time it has its share of the work.
@@ -189,12 +193,12 @@ pub(super) fn search(
         None => Archive::begin(&single, uncounted, seed, count, best, watch, &mut info.interrupted)?,
     };
     let spread = spreads(uncounted, seed)?;
-    // A generation is given the time of the last.
+    // A generation is given the time or the work of the last.
     let mut last = Duration::ZERO;
     while !info.interrupted {
         let elapsed = of_best + before + began.elapsed();
         let is_over = match (improve.generations, time) {
-            (None, None) => archive.work >= (TIMES - 1) * first,
+            (None, None) => archive.generations > 0 && archive.work + archive.last >= (TIMES - 1) * first,
             (most, time) => {
                 most.is_some_and(|most| archive.generations >= most)
                     || time.is_some_and(|time| elapsed + last >= time)
@@ -205,6 +209,7 @@ pub(super) fn search(
         }
         let store = || archive.stored(before + began.elapsed());
         outputs.checkpoint.inspect(|checkpoint| checkpoint.at_border(PART, store));
+        let so_far = archive.work;
         let jobs = archive.plan()?;
         let shared = uncounted.shared_by(jobs.len());
         let (results, is_stopped) = side_by_side(jobs.len(), watch, |number, watch| {
@@ -216,6 +221,7 @@ pub(super) fn search(
             archive.take(job, result)?;
         }
         archive.generations += u64::from(!is_stopped);
+        archive.last = archive.work - so_far;
         last = (of_best + before + began.elapsed()).saturating_sub(elapsed);
         outputs.shown.inspect(|shown| archive.show(shown));
     }
@@ -304,6 +310,7 @@ impl<'a> Archive<'a> {
             searches: 0,
             generations: 0,
             work,
+            last: 0,
         };
         for (run, trace) in runs.into_iter().zip(&traces) {
             archive.insert(run, trace, None);
@@ -329,6 +336,7 @@ impl<'a> Archive<'a> {
             searches: self.searches,
             generations: self.generations,
             work: self.work,
+            last: self.last,
             time,
             invalid: self.task.invalid.counts(),
         }
@@ -365,6 +373,7 @@ impl<'a> Archive<'a> {
             searches: stored.searches,
             generations: stored.generations,
             work: stored.work,
+            last: stored.last,
         };
         for (entries, searches, idle) in stored.niches {
             let mut niche = Niche { entries: vec![], searches, idle };
@@ -537,8 +546,10 @@ impl<'a> Archive<'a> {
             return Ok((None, 0));
         }
         let choice = &entry.features[below(rng, entry.features.len())];
-        let (mut rest, work) = (known_of(&entry.run), entry.run.primitives as u64 + 1);
-        let Some(trace) = turned(&self.bare, &rest, choice, rng)? else { return Ok((None, work)) };
+        let mut rest = known_of(&entry.run);
+        let (trace, replays) = turned(&self.bare, &rest, choice, rng)?;
+        let work = replays * (entry.run.primitives as u64 + 1);
+        let Some(trace) = trace else { return Ok((None, work)) };
         rest.remove(&choice.address);
         let hold = self.entry(Run::default(), &trace, None).features;
         let empty = Sketches::start(&self.task.sketches).total().value();
@@ -672,6 +683,7 @@ fn run(
         let score = search.best.log_score;
         if shown.is_none_or(|shown| score > shown) {
             shown = Some(score);
+            work += search.best.primitives as u64 + 1;
             if let Some(run) = scored(task, job, &search.best)? {
                 runs.push((run, search.learnt()));
             }

@@ -56,9 +56,8 @@ impl Search<'_> {
             let chain_seed = rng.next_u64();
             if let Some(choice) = slide {
                 let mut chain = self.chain(kernel, present, chain_seed, 3)?;
-                let before = chain.work();
                 let slides = chain.slides(self.task, choice, most, &mut rng)?;
-                work += chain.work() - before;
+                work += chain.work();
                 present = chain.into_state();
                 let slid = |moves| ways[0].clone().into_iter().chain(moves).collect();
                 ways = slides.into_iter().map(slid).collect::<Vec<Values>>();
@@ -83,12 +82,10 @@ impl Search<'_> {
                 let regrow = Regrow::best_of(new.clone(), self.improve.regrow, self.improve.drawn_by.clone());
                 let grow = Kernel::Leaf(Proposer::Regrow(Box::new(regrow)));
                 let mut grown = self.chain(&grow, chain.into_state(), chain_seed, 1)?;
-                let before = grown.work();
                 grown.advance(self.task, new.len() as u64, &mut |_, _| true)?;
-                work += grown.work() - before;
+                work += grown.work();
                 chain = self.chain(kernel, grown.into_state(), chain_seed, 2)?;
             }
-            let before = chain.work();
             let (mut stage, mut lack) = (FIRST * chain.state.trace.len() as u64, f64::INFINITY);
             for _ in 0..STAGES {
                 let lacking = so_far - chain.best.score();
@@ -102,7 +99,7 @@ impl Search<'_> {
                 }
                 stage *= 2;
             }
-            work += chain.work() - before;
+            work += chain.work();
             let score = chain.best.score();
             if score > self.best.log_score {
                 self.best = chain.best.get(&chain.state, self.task)?;

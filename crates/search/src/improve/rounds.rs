@@ -307,9 +307,9 @@ impl<'a> Search<'a> {
         let Some(state) = self.state.take() else { return Ok((self.slice, 0)) };
         let mut chain: Chain = Chain::at(self.task, &settings, number, plan, state, &self.spreads)?;
         chain.restrict(self.improve.power, None);
-        let (so_far, before) = (self.best.log_score, chain.work());
+        let so_far = self.best.log_score;
         if !chain.state.trace.is_empty() {
-            while chain.work() < before + self.slice && may_continue(so_far.max(chain.best.score())) {
+            while chain.work() < self.slice && may_continue(so_far.max(chain.best.score())) {
                 chain.advance(self.task, steps, &mut |_, _| true)?;
             }
         }
@@ -317,7 +317,7 @@ impl<'a> Search<'a> {
             self.best = chain.best.get(&chain.state, self.task)?;
         }
         let grows = kernel.any(&|kernel| matches!(kernel, Kernel::Leaf(Proposer::Regrow(_))));
-        let (work, parts) = (chain.work() - before, if grows { chain.counts.many.accepted } else { 0 });
+        let (work, parts) = (chain.work(), if grows { chain.counts.many.accepted } else { 0 });
         self.state = Some(chain.into_state());
         Ok((work, parts))
     }

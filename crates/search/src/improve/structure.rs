@@ -149,8 +149,9 @@ impl Structure {
             }
             for (place, choices) in at_place.into_iter().take(PLACES) {
                 let choice = choices[below(rng, choices.len())];
-                let Some(turned) = turned(bare, &known(trace), choice, rng)? else { continue };
-                work += steps(&turned);
+                let (turned, replays) = turned(bare, &known(trace), choice, rng)?;
+                work += replays * steps(trace);
+                let Some(turned) = turned else { continue };
                 let other = cells_of(&turned.parts, grid);
                 shares.entry(place).or_default().add(1.0 - whole.in_common(&other));
             }
@@ -230,7 +231,7 @@ pub(super) fn below(rng: &mut Stream, count: usize) -> usize {
 }
 
 /// The run with these values in which a choice has another value, and what it brings is drawn from the prior. `None` if no draw gave another value,
-/// or where the run is invalid.
+/// or where the run is invalid. Also returns the number of replays.
 ///
 /// # Errors
 /// A fault of the program that makes no run invalid.
@@ -239,24 +240,24 @@ pub(super) fn turned(
     known: &HashMap<u128, Value>,
     choice: &Choice,
     rng: &mut Stream,
-) -> Result<Option<Trace>, Failure> {
+) -> Result<(Option<Trace>, u64), Failure> {
     let mut rest = known.clone();
     rest.remove(&choice.address);
     let old = text(choice);
-    for _ in 0..TRIES {
+    for number in 1..=TRIES {
         let seed = niwaki_math::RngCore::next_u64(rng);
         match traced(bare, rest.clone(), seed) {
             Ok(other) => {
                 let new = other.choices.iter().find(|other| other.address == choice.address);
                 if new.is_some_and(|new| text(new) != old) {
-                    return Ok(Some(other));
+                    return Ok((Some(other), number));
                 }
             }
             Err(failure) if failure.is_impossible() => {}
             Err(failure) => return Err(failure),
         }
     }
-    Ok(None)
+    Ok((None, TRIES))
 }
 
 /// The mean share of the scene's cells below a call or an iteration, by place.
