@@ -5,13 +5,14 @@
 
 use super::cut::{Cut, Operation};
 use super::measured::{Form, Tone, no_inside};
-use super::{Cuboid, Solid};
+use super::{Cuboid, Solid, surface};
 use crate::bounds::Aabb;
 use crate::convex::{Convex, is_aligned};
 use crate::error::{GeomError, bad_shape};
 use crate::fine::FineMesh;
 use crate::look::{Look, Paint};
 use crate::mesh::TriMesh;
+use crate::once::Once;
 use crate::placement::Placement;
 use crate::store::{self, Number, WorldMesh};
 use crate::vector::{Mat3, Vec3};
@@ -28,6 +29,7 @@ struct Inner {
     rotation: Option<Box<Mat3>>,
     /// The paint; `None` for an empty look.
     paint: Option<Box<Paint>>,
+    /// The smallest box around the coarse mesh; of a cut, around its solids.
     aabb: Aabb,
     /// The thickness of the hull; infinite for a box and a mesh.
     width: f64,
@@ -134,13 +136,13 @@ impl Shape {
             Form::Box | Form::Flat => solid.aabb(&placement)?,
             Form::Mesh => {
                 number = Number::new();
-                match solid {
-                    // Only its surface has its box.
-                    Solid::Cut(_) => {
-                        let mesh = solid.mesh(&placement)?;
-                        store::mesh(&number, || mesh).aabb()
+                match &solid {
+                    // Many cuts are only parts of other cuts: nobody asks for their surfaces.
+                    Solid::Cut(cut) => {
+                        surface::check(cut)?;
+                        cut.around_solids()
                     }
-                    _ => solid.aabb(&placement)?,
+                    solid => solid.aabb(&placement)?,
                 }
             }
             Form::Convex => {
@@ -359,7 +361,10 @@ impl Shape {
     /// The smallest box around the coarse mesh, world space; for a flat shape, around the outline.
     #[inline]
     pub fn aabb(&self) -> &Aabb {
-        &self.0.aabb
+        match &self.0.solid {
+            Solid::Cut(cut) => cut.aabb.once(|| self.world_mesh().aabb()),
+            _ => &self.0.aabb,
+        }
     }
 
     /// True for a box whose sides are exactly the coordinate directions: it is its [`Shape::aabb`].
@@ -427,7 +432,7 @@ impl Shape {
 
     /// Smallest length of the solid: the scale of the tolerance between touching and overlapping.
     pub fn thickness(&self) -> f64 {
-        let e = self.0.aabb.extent();
+        let e = self.aabb().extent();
         let boxed = e.x.min(e.y).min(e.z);
         match &self.0.solid {
             Solid::Box(Cuboid { size }) => boxed.min(size.x.min(size.y).min(size.z)),

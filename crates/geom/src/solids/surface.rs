@@ -7,11 +7,11 @@
 use super::cut::Cut;
 use super::leaf::Leaf;
 use super::sides::Sides;
-use crate::bounds::Aabb;
 use crate::error::{GeomError, bad_shape as bad};
 use crate::fine::FineMesh;
 use crate::mesh::TriMesh;
 use crate::vector::Vec3;
+use std::ops::ControlFlow;
 
 /// The distance, as a share of the size, below which points are at one place.
 const SAME: f64 = 1e-9;
@@ -30,7 +30,7 @@ struct Facet {
 
 /// The distance below which points of a cut are at one place.
 pub(super) fn tolerance(cut: &Cut) -> f64 {
-    let aabb = cut.solids().iter().fold(Aabb::EMPTY, |all, shape| all.union(shape.aabb()));
+    let aabb = cut.around_solids();
     let most = |v: Vec3| v.x.max(v.y).max(v.z);
     let farthest = most(aabb.high.max(aabb.low * -1.0));
     (SAME * most(aabb.extent())).max(STEP * farthest)
@@ -42,6 +42,17 @@ pub(super) fn coarse_leaves(cut: &Cut) -> Vec<Leaf> {
     cut.solids().iter().map(|shape| Leaf::coarse(shape, tolerance)).collect()
 }
 
+/// Refuses a cut of which nothing is left. The first facet decides, so this is cheap beside the surface.
+///
+/// # Errors
+/// `bad-shape`.
+pub(crate) fn check(cut: &Cut) -> Result<(), GeomError> {
+    match each_facet(cut, &coarse_leaves(cut), |_| ControlFlow::Break(())) {
+        ControlFlow::Break(()) => Ok(()),
+        ControlFlow::Continue(()) => bad("nothing is left of the solid".to_string()),
+    }
+}
+
 /// The surface as scores see it.
 ///
 /// # Errors
@@ -49,15 +60,13 @@ pub(super) fn coarse_leaves(cut: &Cut) -> Vec<Leaf> {
 pub(crate) fn mesh(cut: &Cut) -> Result<TriMesh, GeomError> {
     let leaves = coarse_leaves(cut);
     let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
-    each_facet(cut, &leaves, |facet| {
+    let _ = each_facet(cut, &leaves, |facet| {
         let start = vertices.len() as u32;
         let count = facet.points.len() as u32;
         vertices.extend(facet.points);
         triangles.extend((1..count - 1).map(|k| [start, start + k, start + k + 1]));
+        ControlFlow::Continue(())
     });
-    if triangles.is_empty() {
-        return bad("nothing is left of the solid".to_string());
-    }
     TriMesh::new(vertices, triangles)
 }
 
@@ -68,9 +77,9 @@ pub(crate) fn fine(cut: &Cut) -> FineMesh {
     let meshes: Vec<FineMesh> = cut.solids().iter().map(|shape| shape.sharp_mesh()).collect();
     let leaves: Vec<Leaf> = meshes.iter().map(|mesh| Leaf::fine(mesh, tolerance)).collect();
     let mut all = FineMesh::default();
-    each_facet(cut, &leaves, |facet| {
+    let _ = each_facet(cut, &leaves, |facet| {
         if !cut.shows(facet.leaf) {
-            return;
+            return ControlFlow::Continue(());
         }
         let mesh = &meshes[facet.leaf];
         let corners = mesh.faces[leaves[facet.leaf].sources[facet.face]].map(|corner| corner as usize);
@@ -86,6 +95,7 @@ pub(crate) fn fine(cut: &Cut) -> FineMesh {
             })
             .collect();
         (1..numbers.len() - 1).for_each(|k| all.face([numbers[0], numbers[k], numbers[k + 1]]));
+        ControlFlow::Continue(())
     });
     all.without_unused()
 }
@@ -98,8 +108,8 @@ fn shares([a, b, c]: [Vec3; 3], p: Vec3) -> [f64; 3] {
     [part(b, c), part(c, a), part(a, b)]
 }
 
-/// Calls `each` with the facets, in the order of the leaves and of their faces.
-fn each_facet(cut: &Cut, leaves: &[Leaf], mut each: impl FnMut(Facet)) {
+/// Calls `each` with the facets, in the order of the leaves and of their faces, until it breaks.
+fn each_facet(cut: &Cut, leaves: &[Leaf], mut each: impl FnMut(Facet) -> ControlFlow<()>) -> ControlFlow<()> {
     let tolerance = tolerance(cut);
     let mut open: Vec<(Vec<Vec3>, Vec<Sides>, usize)> = Vec::new();
     for (number, leaf) in leaves.iter().enumerate() {
@@ -122,7 +132,7 @@ fn each_facet(cut: &Cut, leaves: &[Leaf], mut each: impl FnMut(Facet)) {
                 if outcome.is_known() && is_first {
                     let turned = outcome.front();
                     let points = if turned { points.into_iter().rev().collect() } else { points };
-                    each(Facet { points, leaf: number, face: at, turned });
+                    each(Facet { points, leaf: number, face: at, turned })?;
                     continue;
                 }
                 let other = dividers[next];
@@ -136,4 +146,5 @@ fn each_facet(cut: &Cut, leaves: &[Leaf], mut each: impl FnMut(Facet)) {
             }
         }
     }
+    ControlFlow::Continue(())
 }
