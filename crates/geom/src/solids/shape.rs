@@ -111,6 +111,19 @@ impl Inner {
     }
 }
 
+/// True unless the rotation is the identity, to the bit.
+#[inline]
+fn is_turned(rotation: &Mat3) -> bool {
+    // Without jumps: the numbers were just computed, and a comparison of memory would wait until they are there.
+    let differing = |a: Vec3, b: Vec3| {
+        let bits = |x: f64, y: f64| x.to_bits() ^ y.to_bits();
+        bits(a.x, b.x) | bits(a.y, b.y) | bits(a.z, b.z)
+    };
+    let [a, b, c] = rotation.columns;
+    let [x, y, z] = Mat3::IDENTITY.columns;
+    differing(a, x) | differing(b, y) | differing(c, z) != 0
+}
+
 impl Shape {
     /// Places `solid` in the world and computes the data for scores. It ignores the rotation of the look.
     ///
@@ -159,8 +172,7 @@ impl Shape {
             return bad_shape("the shape is farther than 1e12 from the origin".to_string());
         }
         let Placement { rotation, translation } = placement;
-        let bits = |turn: &Mat3| turn.columns.map(|column| column.to_array().map(f64::to_bits));
-        let rotation = (bits(&rotation) != bits(&Mat3::IDENTITY)).then(|| Box::new(rotation));
+        let rotation = is_turned(&rotation).then(|| Box::new(rotation));
         Ok(Shape(Arc::new(Inner { solid, translation, rotation, paint, aabb, width, number })))
     }
 
@@ -362,9 +374,15 @@ impl Shape {
     #[inline]
     pub fn aabb(&self) -> &Aabb {
         match &self.0.solid {
-            Solid::Cut(cut) => cut.aabb.once(|| self.world_mesh().aabb()),
+            Solid::Cut(cut) => self.around_surface(cut),
             _ => &self.0.aabb,
         }
+    }
+
+    /// The box of a cut.
+    #[inline(never)]
+    fn around_surface<'a>(&self, cut: &'a Cut) -> &'a Aabb {
+        cut.aabb.once(|| self.world_mesh().aabb())
     }
 
     /// True for a box whose sides are exactly the coordinate directions: it is its [`Shape::aabb`].
