@@ -416,7 +416,9 @@ impl Shape {
             Some(convex) => TriMesh::new(convex.vertices().to_vec(), convex.topology().triangles.clone()),
             None => solid.mesh(&placement),
         };
-        store::mesh(number, || compute().expect("the same numbers gave a mesh when the shape was made"))
+        store::mesh(number, || {
+            compute().expect("a solid that was checked when the shape was made has a mesh")
+        })
     }
 
     /// The mesh with many sides in the world, for pictures and files: rounded edges, round cylinders, smooth normals (the high
