@@ -147,19 +147,23 @@ impl Metric {
 pub fn cholesky(matrix: &[f64]) -> Option<Vec<f64>> {
     let n = matrix.len().isqrt();
     let mut l = matrix.to_vec();
-    for i in 0..n {
-        for j in 0..=i {
-            let (before, row) = l.split_at(i * n);
-            let known =
-                if j < i { dot(&row[..j], &before[j * n..j * n + j]) } else { dot(&row[..i], &row[..i]) };
-            let left = l[i * n + j] - known;
-            l[i * n + j] = if i != j {
-                left / l[j * n + j]
+    // Sums of the products of earlier columns. Column by column, a step of the processor serves several of them.
+    let mut known = vec![-0.0; n * n];
+    let mut column = vec![0.0; n];
+    for j in 0..n {
+        for i in j..n {
+            let left = l[i * n + j] - known[i * n + j];
+            column[i] = if i != j {
+                left / column[j]
             } else if left > 0.0 && left.is_finite() {
                 left.sqrt()
             } else {
                 return None;
             };
+            l[i * n + j] = column[i];
+        }
+        for i in j + 1..n {
+            add(&mut known[i * n..=i * n + i][j + 1..], column[i], &column[j + 1..=i]);
         }
     }
     Some(l)

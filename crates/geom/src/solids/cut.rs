@@ -19,13 +19,14 @@ use super::measured::{Checks, Form, Measured};
 use super::shape::Shape;
 use super::sides::Sides;
 use super::surface;
+use crate::bounds::Aabb;
 use crate::error::{GeomError, bad_shape as bad};
 use crate::fine::FineMesh;
 use crate::mesh::TriMesh;
 use crate::placement::Placement;
 use crate::vector::Vec3;
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// The most leaves of a cut.
 pub const MOST: usize = 256;
@@ -102,7 +103,7 @@ impl From<Operation> for Step {
 }
 
 /// A tree of solids, placed in the world.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(try_from = "Plain")]
 pub struct Cut {
     solids: Vec<Shape>,
@@ -110,6 +111,15 @@ pub struct Cut {
     /// The leaves whose faces pictures show; all, unless the cut is a coat of paint ([`Shape::coats`]).
     #[serde(skip)]
     shown: Option<Vec<usize>>,
+    /// The smallest box around its surface, computed when it is first used.
+    #[serde(skip)]
+    pub(super) aabb: OnceLock<Aabb>,
+}
+
+impl PartialEq for Cut {
+    fn eq(&self, other: &Cut) -> bool {
+        (&self.solids, &self.steps, &self.shown) == (&other.solids, &other.steps, &other.shown)
+    }
 }
 
 /// The serialised form of a cut.
@@ -124,7 +134,7 @@ impl TryFrom<Plain> for Cut {
     type Error = GeomError;
 
     fn try_from(Plain { solids, steps }: Plain) -> Result<Cut, GeomError> {
-        let cut = Cut { solids, steps, shown: None };
+        let cut = Cut { solids, steps, shown: None, aabb: OnceLock::new() };
         cut.check().map(|()| cut)
     }
 }
@@ -144,7 +154,7 @@ impl Cut {
             }
         }
         steps.push(operation.into());
-        let cut = Cut { solids, steps, shown: None };
+        let cut = Cut { solids, steps, shown: None, aabb: OnceLock::new() };
         cut.check().map(|()| cut)
     }
 
@@ -190,10 +200,15 @@ impl Cut {
         &self.solids[0]
     }
 
+    /// The smallest box around the solids.
+    pub(super) fn around_solids(&self) -> Aabb {
+        self.solids.iter().fold(Aabb::EMPTY, |all, shape| all.union(shape.aabb()))
+    }
+
     /// The cut in a frame, which may reflect it.
     pub(crate) fn placed(&self, placement: &Placement) -> Result<Cut, GeomError> {
         let solids = self.solids.iter().map(|shape| shape.in_frame(placement)).collect::<Result<_, _>>()?;
-        Ok(Cut { solids, steps: self.steps.clone(), shown: self.shown.clone() })
+        Ok(Cut { solids, steps: self.steps.clone(), shown: self.shown.clone(), aabb: OnceLock::new() })
     }
 
     /// The cut of which pictures show the faces of these leaves only.

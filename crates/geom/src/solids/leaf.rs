@@ -57,7 +57,7 @@ impl Face {
 }
 
 /// A leaf. Of a convex leaf the planes are known, so that no face is looked at one by one.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Leaf {
     pub aabb: Aabb,
     pub faces: Vec<Face>,
@@ -74,22 +74,23 @@ impl Leaf {
             let (vertices, topology) = (convex.vertices(), convex.topology());
             let faces =
                 topology.faces.iter().map(|face| face.iter().map(|v| vertices[*v as usize]).collect());
-            let leaf = Leaf::new(faces, tolerance);
+            let leaf = Leaf::new(faces, Some(convex.corners()), tolerance);
             // The faces of a nearly convex solid may be bent: then only its triangles are its surface.
             if leaf.planes.is_some() && leaf.is_flat() {
                 return leaf;
             }
         }
-        Leaf::new(shape.world_mesh().corners().map(Vec::from), tolerance)
+        Leaf::new(shape.world_mesh().corners().map(Vec::from), None, tolerance)
     }
 
     /// The solid of pictures.
     pub fn fine(mesh: &FineMesh, tolerance: f64) -> Leaf {
         let corner = |v: u32| mesh.vertices[v as usize];
-        Leaf::new(mesh.faces.iter().map(|face| face.map(corner).to_vec()), tolerance)
+        Leaf::new(mesh.faces.iter().map(|face| face.map(corner).to_vec()), None, tolerance)
     }
 
-    fn new(faces: impl Iterator<Item = Vec<Vec3>>, tolerance: f64) -> Leaf {
+    /// A leaf of these faces. `corners` are all of their corners, each once, where these are known.
+    fn new(faces: impl Iterator<Item = Vec<Vec3>>, corners: Option<&[Vec3]>, tolerance: f64) -> Leaf {
         let (mut all, mut sources) = (Vec::new(), Vec::new());
         for (source, face) in faces.enumerate().filter_map(|(at, points)| Some((at, Face::new(points)?))) {
             all.push(face);
@@ -101,7 +102,7 @@ impl Leaf {
             all = all.into_iter().map(Face::turned).collect();
         }
         let aabb = all.iter().fold(Aabb::EMPTY, |all, face| all.union(&face.aabb));
-        let planes = convex_planes(&all, tolerance);
+        let planes = convex_planes(&all, corners, tolerance);
         Leaf { aabb, faces: all, sources, planes, tolerance }
     }
 
@@ -142,23 +143,24 @@ impl Leaf {
         normal: Vec3,
         mut each: impl FnMut(Vec<Vec3>, Sides),
     ) {
-        let (mut rest, mut pieces, mut sides) = (points.clone(), Vec::new(), Sides::IN);
+        let (mut inner, mut pieces, mut sides) = (None, Vec::new(), Sides::IN);
         for plane in planes {
-            if rest.iter().all(|p| plane.height(*p).abs() <= self.tolerance) {
-                sides = if plane.normal.dot(normal) > 0.0 { Sides::ON } else { Sides::AGAINST };
-                continue;
-            }
-            match split(&rest, plane, self.tolerance) {
+            let rest = inner.as_ref().unwrap_or(&points);
+            match reaches(rest, plane, self.tolerance) {
+                [false, false] if plane.normal.dot(normal) > 0.0 => sides = Sides::ON,
+                [false, false] => sides = Sides::AGAINST,
                 // All of it is outside: the cuts so far were not needed.
-                [_, None] => return each(points, Sides::OUT),
-                [front, Some(back)] => {
-                    pieces.extend(front);
-                    rest = back;
+                [true, false] => return each(points, Sides::OUT),
+                [false, true] => {}
+                [true, true] => {
+                    let [front, back] = split(rest, plane, self.tolerance);
+                    pieces.push(front);
+                    inner = Some(back);
                 }
             }
         }
         pieces.into_iter().for_each(|piece| each(piece, Sides::OUT));
-        each(rest, sides);
+        each(inner.unwrap_or(points), sides);
     }
 
     /// Cuts along each face that crosses the piece, or that lies on it.
@@ -178,15 +180,11 @@ impl Leaf {
             for (plane, from, to) in &knives {
                 let whole = std::mem::take(&mut pieces);
                 for piece in whole {
-                    if !runs_inside(&piece, normal, [*from, *to], tolerance) {
-                        pieces.push(piece);
-                        continue;
-                    }
-                    let parts = split(&piece, plane, tolerance);
-                    if parts.iter().all(Option::is_none) {
-                        pieces.push(piece);
-                    } else {
-                        pieces.extend(parts.into_iter().flatten());
+                    let is_cut = runs_inside(&piece, normal, [*from, *to], tolerance)
+                        && reaches(&piece, plane, tolerance) == [true, true];
+                    match is_cut {
+                        true => pieces.extend(split(&piece, plane, tolerance)),
+                        false => pieces.push(piece),
                     }
                 }
             }
@@ -211,7 +209,7 @@ fn fan(face: &Face) -> impl Iterator<Item = [Vec3; 3]> + '_ {
 }
 
 /// The planes of the faces, each once; `None` if a corner is in front of one of them.
-fn convex_planes(faces: &[Face], tolerance: f64) -> Option<Vec<Plane>> {
+fn convex_planes(faces: &[Face], corners: Option<&[Vec3]>, tolerance: f64) -> Option<Vec<Plane>> {
     let mut planes: Vec<Plane> = Vec::new();
     for face in faces {
         let plane = face.plane();
@@ -220,26 +218,33 @@ fn convex_planes(faces: &[Face], tolerance: f64) -> Option<Vec<Plane>> {
             planes.push(plane);
         }
     }
-    let corners = || faces.iter().flat_map(|face| &face.points);
-    let is_convex = planes.iter().all(|plane| corners().all(|p| plane.height(*p) <= tolerance));
+    let has_below =
+        |points: &[Vec3]| planes.iter().all(|plane| points.iter().all(|p| plane.height(*p) <= tolerance));
+    let is_convex = corners.map_or_else(|| faces.iter().all(|face| has_below(&face.points)), has_below);
     is_convex.then_some(planes)
 }
 
-/// The parts of a convex polygon in front of a plane and behind it. A point closer than `tolerance` is on the plane.
-fn split(points: &[Vec3], plane: &Plane, tolerance: f64) -> [Option<Vec<Vec3>>; 2] {
-    let heights: Vec<f64> = points
-        .iter()
-        .map(|p| plane.height(*p))
-        .map(|height| if height.abs() <= tolerance { 0.0 } else { height })
-        .collect();
-    let reaches = [heights.iter().any(|h| *h > 0.0), heights.iter().any(|h| *h < 0.0)];
-    if reaches != [true, true] {
-        return reaches.map(|reaches| reaches.then(|| points.to_vec()));
+/// Whether a convex polygon reaches in front of a plane and behind it. A point closer than `tolerance` is on the plane.
+fn reaches(points: &[Vec3], plane: &Plane, tolerance: f64) -> [bool; 2] {
+    let mut heights = [f64::NEG_INFINITY, f64::INFINITY];
+    for p in points {
+        let height = plane.height(*p);
+        heights = [heights[0].max(height), heights[1].min(height)];
     }
+    [heights[0] > tolerance, heights[1] < -tolerance]
+}
+
+/// The parts of a convex polygon that reaches to both sides of a plane: in front of it and behind it.
+fn split(points: &[Vec3], plane: &Plane, tolerance: f64) -> [Vec<Vec3>; 2] {
+    let height_of = |p: &Vec3| {
+        let height = plane.height(*p);
+        if height.abs() <= tolerance { 0.0 } else { height }
+    };
     let mut parts = [Vec::with_capacity(points.len() + 1), Vec::with_capacity(points.len() + 1)];
+    let mut there = height_of(&points[0]);
     for (k, p) in points.iter().enumerate() {
-        let next = (k + 1) % points.len();
-        let (q, here, there) = (&points[next], heights[k], heights[next]);
+        let q = &points[(k + 1) % points.len()];
+        let here = std::mem::replace(&mut there, height_of(q));
         if here >= 0.0 {
             parts[0].push(*p);
         }
@@ -254,7 +259,7 @@ fn split(points: &[Vec3], plane: &Plane, tolerance: f64) -> [Option<Vec<Vec3>>; 
             parts.iter_mut().for_each(|part| part.push(crossing));
         }
     }
-    parts.map(Some)
+    parts
 }
 
 /// The planes that cut a piece in the plane `base` along a face, with the stretch of the line where each cuts.

@@ -5,13 +5,14 @@
 
 use super::cut::{Cut, Operation};
 use super::measured::{Form, Tone, no_inside};
-use super::{Cuboid, Solid};
+use super::{Cuboid, Solid, surface};
 use crate::bounds::Aabb;
 use crate::convex::{Convex, is_aligned};
 use crate::error::{GeomError, bad_shape};
 use crate::fine::FineMesh;
 use crate::look::{Look, Paint};
 use crate::mesh::TriMesh;
+use crate::once::Once;
 use crate::placement::Placement;
 use crate::store::{self, Number, WorldMesh};
 use crate::vector::{Mat3, Vec3};
@@ -28,6 +29,7 @@ struct Inner {
     rotation: Option<Box<Mat3>>,
     /// The paint; `None` for an empty look.
     paint: Option<Box<Paint>>,
+    /// The smallest box around the coarse mesh; of a cut, around its solids.
     aabb: Aabb,
     /// The thickness of the hull; infinite for a box and a mesh.
     width: f64,
@@ -109,6 +111,19 @@ impl Inner {
     }
 }
 
+/// True unless the rotation is the identity, to the bit.
+#[inline]
+fn is_turned(rotation: &Mat3) -> bool {
+    // Without jumps: the numbers were just computed, and a comparison of memory would wait until they are there.
+    let differing = |a: Vec3, b: Vec3| {
+        let bits = |x: f64, y: f64| x.to_bits() ^ y.to_bits();
+        bits(a.x, b.x) | bits(a.y, b.y) | bits(a.z, b.z)
+    };
+    let [a, b, c] = rotation.columns;
+    let [x, y, z] = Mat3::IDENTITY.columns;
+    differing(a, x) | differing(b, y) | differing(c, z) != 0
+}
+
 impl Shape {
     /// Places `solid` in the world and computes the data for scores. It ignores the rotation of the look.
     ///
@@ -134,13 +149,13 @@ impl Shape {
             Form::Box | Form::Flat => solid.aabb(&placement)?,
             Form::Mesh => {
                 number = Number::new();
-                match solid {
-                    // Only its surface has its box.
-                    Solid::Cut(_) => {
-                        let mesh = solid.mesh(&placement)?;
-                        store::mesh(&number, || mesh).aabb()
+                match &solid {
+                    // Many cuts are only parts of other cuts: nobody asks for their surfaces.
+                    Solid::Cut(cut) => {
+                        surface::check(cut)?;
+                        cut.around_solids()
                     }
-                    _ => solid.aabb(&placement)?,
+                    solid => solid.aabb(&placement)?,
                 }
             }
             Form::Convex => {
@@ -157,8 +172,7 @@ impl Shape {
             return bad_shape("the shape is farther than 1e12 from the origin".to_string());
         }
         let Placement { rotation, translation } = placement;
-        let bits = |turn: &Mat3| turn.columns.map(|column| column.to_array().map(f64::to_bits));
-        let rotation = (bits(&rotation) != bits(&Mat3::IDENTITY)).then(|| Box::new(rotation));
+        let rotation = is_turned(&rotation).then(|| Box::new(rotation));
         Ok(Shape(Arc::new(Inner { solid, translation, rotation, paint, aabb, width, number })))
     }
 
@@ -359,7 +373,16 @@ impl Shape {
     /// The smallest box around the coarse mesh, world space; for a flat shape, around the outline.
     #[inline]
     pub fn aabb(&self) -> &Aabb {
-        &self.0.aabb
+        match &self.0.solid {
+            Solid::Cut(cut) => self.around_surface(cut),
+            _ => &self.0.aabb,
+        }
+    }
+
+    /// The box of a cut.
+    #[inline(never)]
+    fn around_surface<'a>(&self, cut: &'a Cut) -> &'a Aabb {
+        cut.aabb.once(|| self.world_mesh().aabb())
     }
 
     /// True for a box whose sides are exactly the coordinate directions: it is its [`Shape::aabb`].
@@ -393,7 +416,9 @@ impl Shape {
             Some(convex) => TriMesh::new(convex.vertices().to_vec(), convex.topology().triangles.clone()),
             None => solid.mesh(&placement),
         };
-        store::mesh(number, || compute().expect("the same numbers gave a mesh when the shape was made"))
+        store::mesh(number, || {
+            compute().expect("a solid that was checked when the shape was made has a mesh")
+        })
     }
 
     /// The mesh with many sides in the world, for pictures and files: rounded edges, round cylinders, smooth normals (the high
@@ -427,7 +452,7 @@ impl Shape {
 
     /// Smallest length of the solid: the scale of the tolerance between touching and overlapping.
     pub fn thickness(&self) -> f64 {
-        let e = self.0.aabb.extent();
+        let e = self.aabb().extent();
         let boxed = e.x.min(e.y).min(e.z);
         match &self.0.solid {
             Solid::Box(Cuboid { size }) => boxed.min(size.x.min(size.y).min(size.z)),

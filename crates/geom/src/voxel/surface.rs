@@ -121,13 +121,20 @@ impl Bits {
     }
 }
 
+/// The largest whole number up to `x`. `f64::floor` is a call, because not every processor rounds.
+#[inline]
+fn floor(x: f64) -> i64 {
+    let whole = x as i64;
+    whole.saturating_sub(i64::from(whole as f64 > x))
+}
+
 /// Corners of a triangle in grid coordinates, with the cells of its box.
 pub(super) fn in_grid(corners: [Vec3; 3], grid: &Grid) -> ([Vec3; 3], [i64; 3], [i64; 3]) {
     let t = corners.map(|p| grid.to_grid(p));
     let low = t[0].min(t[1]).min(t[2]);
     let high = t[0].max(t[1]).max(t[2]);
-    let first = low.to_array().map(|x| (x - TOUCH).floor() as i64);
-    let last = high.to_array().map(|x| (x + TOUCH).floor() as i64);
+    let first = low.to_array().map(|x| floor(x - TOUCH));
+    let last = high.to_array().map(|x| floor(x + TOUCH));
     (t, first, last)
 }
 
@@ -314,7 +321,7 @@ impl Axes {
         let rest = direction.y * y + direction.z * z;
         let [a, b] = [low, high].map(|end| (end - rest) * self.cells - 0.5);
         // Rounding moves a bound by less than a cell.
-        [(a.min(b) - 1.0).max(first as f64).ceil() as i64, (a.max(b) + 1.0).min(last as f64).floor() as i64]
+        [(a.min(b) - 1.0).max(first as f64).ceil() as i64, floor((a.max(b) + 1.0).min(last as f64))]
     }
 }
 
