@@ -54,6 +54,12 @@ impl Entries {
         self.all.iter().map(Entry::bytes).sum()
     }
 
+    /// Forgets the visits of all places behind an instruction: code from there on may run through them.
+    pub fn postpone_behind(&self, pc: usize) {
+        let behind = self.all.iter().filter(|entry| entry.pc() > pc);
+        behind.for_each(|entry| entry.visits.store(0, Ordering::Relaxed));
+    }
+
     /// The entry at an instruction.
     #[inline]
     pub fn at(&self, pc: usize) -> Option<&Entry> {
@@ -189,4 +195,23 @@ impl Drop for Entry {
 /// Whether the programs of the process have reached the limit on machine code.
 pub(crate) fn is_full() -> bool {
     BYTES.load(Ordering::Relaxed) > MOST_BYTES
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_behind_new_code_count_their_visits_anew() {
+        let places = [0, 4, 9].map(|pc| Place { pc, for_choices: false });
+        let entries = Entries::at_places(places.into(), 12, 3, true);
+        let is_due = |pc: usize| entries.at(pc).expect("an entry").is_due();
+        for pc in [0, 4, 9, 0, 4, 9] {
+            assert!(!is_due(pc));
+        }
+        assert!(is_due(4));
+        entries.postpone_behind(4);
+        assert_eq!([is_due(9), is_due(9), is_due(9)], [false, false, true]);
+        assert!(is_due(0));
+    }
 }

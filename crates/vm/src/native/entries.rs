@@ -62,6 +62,7 @@ pub(crate) fn write<'v>(
     if !entry.in_background() {
         return write_now(entry, program, function, contents);
     }
+    program.function(function).native.postpone_behind(entry.pc());
     let numbers = registers(program.function(function)).into_iter();
     let values: HashMap<Reg, Value> = numbers.filter_map(|reg| Some((reg, contents(reg)?.clone()))).collect();
     let (program, pc) = (program.clone(), entry.pc());
